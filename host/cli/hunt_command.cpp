@@ -66,8 +66,11 @@ int show(hunt::Case c) {
 }
 
 int again(std::uint64_t seed, const std::string& out) {
-  hunt::Drawn drawn = hunt::draw_case(seed);
-  fmt::print("seed {}: family {}, world {}\n", seed, name(drawn.robot.family), name(drawn.world));
+  hunt::Drawn drawn = hunt::draw_fresh(seed);
+  const std::string kind =
+      drawn.c.part.empty() ? fmt::format("family {}, world {}", name(drawn.robot.family), name(drawn.world))
+                           : fmt::format("part {}", drawn.c.part);
+  fmt::print("seed {}: {}\n", seed, kind);
   hunt::Case c = drawn.c;
   const int status = show(c);
   if (out.empty()) return status;

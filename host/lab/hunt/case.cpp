@@ -66,7 +66,9 @@ std::string commands_csv(const std::vector<guard::Command>& commands) {
   return text;
 }
 
-std::string driver(const Case& c) { return c.planner ? name(*c.planner) : "guard"; }
+std::string driver(const Case& c) {
+  return !c.part.empty() ? "part" : c.planner ? name(*c.planner) : "guard";
+}
 
 std::string repeat_command(const Case& c, const std::string& name) {
   const bool only_here = c.gaps != 0 || (!c.planner && c.commands.empty());
@@ -77,9 +79,10 @@ std::string repeat_command(const Case& c, const std::string& name) {
 
 Texts texts(const Case& c, const std::string& name) {
   const bool recorded = !c.planner && !c.commands.empty();
-  const std::string driven = c.planner  ? fmt::format("planner {}", whisker::name(*c.planner))
-                             : recorded ? fmt::format("commands {}.csv", name)
-                                        : fmt::format("attacker {}", c.attacker);
+  const std::string driven = !c.part.empty() ? fmt::format("part {} attacker {}", c.part, c.attacker)
+                             : c.planner     ? fmt::format("planner {}", whisker::name(*c.planner))
+                             : recorded      ? fmt::format("commands {}.csv", name)
+                                             : fmt::format("attacker {}", c.attacker);
   return {fmt::format("# {}\n# gaps {} {}\n{}", repeat_command(c, name), c.gaps, driven, to_toml(c.scenario)),
           recorded ? commands_csv(c.commands) : ""};
 }
@@ -95,6 +98,7 @@ Case parse_case(const Texts& texts, const std::string& name) {
   c.scenario = parse_scenario(texts.toml, name + ".toml");
   c.gaps = number(option(texts.toml, "gaps"));
   c.attacker = number(option(texts.toml, "attacker"));
+  c.part = option(texts.toml, "part");
   const std::string planner = option(texts.toml, "planner");
   if (!planner.empty()) c.planner = planner_named(planner);
   if (!planner.empty() && !c.planner) throw InputError(name + ".toml", 1, 1, "no such planner");

@@ -1,4 +1,4 @@
-/// One drive: a robot in a world, and who drives it. A file repeats it.
+/// One drive: a robot in a world, and who drives it; or random inputs of one part. A file repeats it.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@ struct Case {
   std::optional<PlannerKind> planner;    ///< none: the guard, under commands
   std::vector<guard::Command> commands;  ///< of the guard; empty: an Attacker with the seed `attacker`
   std::uint64_t attacker = 0;
+  std::string part;        ///< of the core, judged alone with the seed `attacker` instead of a drive
   std::uint64_t gaps = 0;  ///< seed of uneven gaps between ticks; 0: each is the control period
 };
 
@@ -24,7 +25,7 @@ struct Case {
 std::vector<guard::Command> parse_commands(const std::string& csv);
 std::string commands_csv(const std::vector<guard::Command>& commands);
 
-/// "guard", or the name of the planner.
+/// "part", "guard", or the name of the planner.
 std::string driver(const Case& c);
 
 /// The whisker command that repeats a case of this name in the current folder.

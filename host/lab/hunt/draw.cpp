@@ -6,6 +6,7 @@
 #include "host/lab/campaign/random_robot.hpp"
 #include "host/lab/hunt/events.hpp"
 #include "host/lab/hunt/geometry.hpp"
+#include "host/lab/hunt/parts/parts.hpp"
 #include "host/lab/hunt/premise.hpp"
 
 namespace whisker::hunt {
@@ -117,6 +118,14 @@ Drawn draw_case(std::uint64_t seed) {
   set_time(dice, drawn.c);
   if (dice.chance(kEventful)) draw_kept_events(dice, s);
   keep_base_in_time(drawn.c);
+  return drawn;
+}
+
+Drawn draw_fresh(std::uint64_t seed) {
+  if (seed % 4 == 0) return draw_case(seed);
+  Drawn drawn;
+  drawn.c.part = parts()[(seed - seed / 4 - 1) % parts().size()].name;
+  drawn.c.attacker = seed;
   return drawn;
 }
 

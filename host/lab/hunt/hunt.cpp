@@ -31,8 +31,8 @@ constexpr char kBreak = '\x1e';
 Row drawn_row(std::uint64_t seed, const Drawn& drawn) {
   Row row;
   row.seed = seed;
-  row.family = name(drawn.robot.family);
-  row.world = name(drawn.world);
+  row.family = drawn.c.part.empty() ? name(drawn.robot.family) : drawn.c.part;
+  row.world = drawn.c.part.empty() ? name(drawn.world) : "";
   row.driver = driver(drawn.c);
   row.families = drawn.robot.families;
   row.keys = drawn.robot.keys;
@@ -141,7 +141,7 @@ class Hunt {
     piece.seed = next_;
     next_ += options_.shards;
     const Job job = [this, seed = piece.seed](const Say& say) {
-      Drawn drawn = draw_case(seed);
+      Drawn drawn = draw_fresh(seed);
       Row row = drawn_row(seed, drawn);
       say(to_csv(row));
       drive(drawn.c, row, say);
@@ -241,7 +241,7 @@ class Hunt {
     if (!parts.at(3).empty()) {
       shrink.c = parse_case({parts.at(3), parts.at(4)}, "case");
     } else {
-      shrink.c = piece.parent.empty() ? draw_case(piece.seed).c : changed(piece.c, piece.seed);
+      shrink.c = piece.parent.empty() ? draw_fresh(piece.seed).c : changed(piece.c, piece.seed);
     }
     shrinks_.push_back(std::move(shrink));
   }

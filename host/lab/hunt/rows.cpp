@@ -136,8 +136,9 @@ std::string shares_table(const std::vector<Row>& rows) {
 }
 
 std::string nearest_table(std::vector<Row> rows) {
-  rows.erase(std::remove_if(rows.begin(), rows.end(),
-                            [](const Row& r) { return !r.finding.empty() || !r.parent.empty(); }),
+  rows.erase(std::remove_if(
+                 rows.begin(), rows.end(),
+                 [](const Row& r) { return !r.finding.empty() || !r.parent.empty() || r.driver == "part"; }),
              rows.end());
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
     return a.closeness != b.closeness ? a.closeness < b.closeness : a.seed < b.seed;
@@ -155,7 +156,7 @@ std::string nearest_table(std::vector<Row> rows) {
 
 bool harms(const std::string& finding) {
   return finding == "contact" || finding == "judges_disagree" || finding.rfind("other_hash", 0) == 0 ||
-         finding.rfind("crash", 0) == 0;
+         finding.rfind("crash", 0) == 0 || finding.rfind("part", 0) == 0;
 }
 
 std::string to_csv(const Row& r) {

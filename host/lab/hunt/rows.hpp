@@ -20,8 +20,8 @@ struct Row {
   std::uint64_t hash = 0;
 };
 
-/// The body touched something, the process died, or two computations of the same differ: worse than a robot
-/// that stops or errs.
+/// The body touched something, the process died, two computations of the same differ, or a part is not what
+/// it says: worse than a robot that stops or errs.
 bool harms(const std::string& finding);
 
 std::string to_csv(const Row& row);  ///< with the newline

@@ -19,6 +19,7 @@
 #include "host/lab/hunt/geometry.hpp"
 #include "host/lab/hunt/judge.hpp"
 #include "host/lab/hunt/on_bus.hpp"
+#include "host/lab/hunt/parts/parts.hpp"
 #include "host/lab/hunt/premise.hpp"
 
 namespace whisker::hunt {
@@ -26,6 +27,7 @@ namespace {
 
 constexpr double kAgreement_m = 1e-4;
 constexpr double kOffGoal_m = 0.002;
+constexpr double kFarFromAll = 1e9;                        // of what has no place
 constexpr std::uint64_t kHashesEvery = 8, kBusEvery = 32;  // missions, by seed
 
 /// Uneven gaps between ticks, at most the longest accepted one.
@@ -280,9 +282,19 @@ void drive(Driven& driven, Gaps gaps, bool fine, Judge& judge) {
   }
 }
 
+Outcome attempt_part(const Case& c) {
+  Outcome o;
+  o.end = "judged";
+  o.gap_m = o.closeness = kFarFromAll;
+  const std::string wrong = judge_part(c.part, c.attacker);
+  if (!wrong.empty()) o.finding = fmt::format("part {}: {}", c.part, wrong);
+  return o;
+}
+
 }  // namespace
 
 Outcome attempt(Case& c) {
+  if (!c.part.empty()) return attempt_part(c);
   const Scenario& s = c.scenario;
   const auto driven = make_driven(c);
   const sim::Plant& plant = driven->plant();

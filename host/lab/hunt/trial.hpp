@@ -28,6 +28,7 @@ struct Outcome {
 ///   off_goal         the robot says reached and is not there
 ///   unreachable      it says so although a way exists that is as wide as the planners promise to pass
 ///   gave_up WHY      the same, of a planner that gives up
+///   part NAME WHAT   a part of the core does not do what a plain model of it does
 ///   other_hash       a second drive of the same mission, over a bus or from its frames, gave other commands
 Outcome attempt(Case& c);
 
