@@ -144,15 +144,15 @@ void WavefrontPlanner::plan(const View& view) noexcept {
 
 int32_t WavefrontPlanner::levels(Length l) const noexcept { return reference(l).raw() / map_.cell().raw(); }
 
-/// How many levels the body may drive more to avoid suspected cells of the plan: little more than the way to
-/// the first one, because on this way it sees whether something is there.
+/// How many levels the body may drive more to avoid suspected cells of the plan: little more than half of the
+/// way to the first one, because on this way it sees whether something is there.
 int32_t WavefrontPlanner::accepted(const View& view) const noexcept {
   const int32_t most = levels(kFarAway);
   const Cell goal = map_.place(goal_.at);
   Cell p = map_.place(view.pose.at);
   int32_t steps = 0;
   while (steps < most && wavefront_.next(map_, p, goal, p) && map_.at(p) != CellState::suspect) ++steps;
-  return steps == most ? levels(kDearer) : levels(kLittle) + steps;
+  return steps == most ? levels(kDearer) : levels(kLittle) + steps / 2;
 }
 
 bool WavefrontPlanner::sees(Vec from, Vec to) const noexcept {
