@@ -108,7 +108,7 @@ class RobotCheck(Case):
         self.assertEqual(check(self.file("agrees.toml", "range_cone_deg = 25\n[sensor]\ncone_deg = 17.5\n")).returncode, 0)
 
     def test_a_robot_that_takes_for_ever_is_not_fit(self):
-        slow = check(self.file("slow.toml", "turn_rate_max_radps = 0.1\n"))
+        slow = check(self.file("slow.toml", "turn_rate_max_radps = 0.1\nrange_cone_deg = 15\n"))
         self.assertEqual(slow.returncode, 6, slow.stdout)
         self.assertRegex(slow.stderr, r"reached in .*, more than 20 times the \d+\.\d s of the straight way at full speed")
 

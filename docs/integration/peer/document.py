@@ -68,7 +68,9 @@ class Protocol:
             self.messages[name] = Message(name, int(function, 16), int(size), tuple(map(_signal, signals)))
         self.by_function = {message.function: message for message in self.messages.values()}
         self.parameters = {}
-        for index, name, _, default, reach in rows(text, "index", "parameter", "unit of 1", "default", "range"):
+        for index, name, unit, default, reach in rows(text, "index", "parameter", "unit of 1", "default", "range"):
+            if unit == "derived":
+                continue
             least, most = map(int, reach.split(".."))
             self.parameters[name] = Parameter(int(index), int(default), least, most)
         self.examples = [tuple(row) for row in rows(text, "what", "SLCAN")]
