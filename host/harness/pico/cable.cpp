@@ -1,6 +1,7 @@
 #include "host/harness/pico/cable.hpp"
 
 #include "firmware/can/param_server.hpp"
+#include "firmware/params/words.hpp"
 #include "host/harness/hil/overheard.hpp"
 
 namespace whisker::pico {
@@ -110,6 +111,7 @@ void Cable::act() {
         asked_us_.reset();
         ++index_;
       }
+      while (index_ < kParams && is_derived(index_)) ++index_;
       std::uint32_t raw = 0;
       if (can::read_param(params_, index_, raw)) return ask({can::ParamAction::write, index_, raw});
       phase_ = Phase::commits;
