@@ -13,7 +13,8 @@ uint8_t next_phase(const uint8_t* rows, size_t count, uint8_t phase, uint8_t eve
     if (row[why] != static_cast<uint8_t>(Why::none)) decision.why = static_cast<Why>(row[why]);
     return row[to];
   }
-  WHISKER_ASSERT(!"an event that the table does not know in this phase");
+  [[maybe_unused]] constexpr bool kTableKnowsTheEvent = false;
+  WHISKER_ASSERT(kTableKnowsTheEvent);
   return phase;
 }
 

@@ -13,14 +13,17 @@ const PAGE = readFileSync(join(ROOT, 'docs/build-a-pico-robot.md'), 'utf8');
 const BETWEEN_MS = 2000;
 const TRIES = 4; // on a computer that is slower than the robot
 
-/** What each of them says, by its second word. */
+/** What each of them says. */
 const SAYS = {
-  nodes: /controller .*running[^]*base .*running/,
+  'watch --nodes': /controller .*running[^]*base .*running/,
   get: /encoder_counts_per_m +14324/,
   set: /-> 0\.25 m\/s/,
   watch: /ranges \[\d/,
   goal: /reached/,
 };
+
+/** `watch --nodes` of "build/host/whisker bench watch --nodes --tty $CABLE". */
+const what = (line) => line.split(' ').slice(2, line.includes('--nodes') ? 4 : 3).join(' ');
 
 async function said(command) {
   const [program, ...words] = command.split(' ');
@@ -40,17 +43,17 @@ test('the commands of the first evening', {timeout: 600000}, async () => {
     }
     assert.ok(cable);
     assert.deepEqual(
-      block.map((line) => line.split(' ')[2]),
+      block.map(what),
       Object.keys(SAYS),
     );
     for (const line of block) {
       const command = line.replace('$CABLE', cable);
       let text = '';
-      for (let i = 0; i < TRIES && !SAYS[line.split(' ')[2]].test(text); i++) {
+      for (let i = 0; i < TRIES && !SAYS[what(line)].test(text); i++) {
         await sleep(BETWEEN_MS * (i + 1));
         text = await said(command);
       }
-      assert.match(text, SAYS[line.split(' ')[2]], command);
+      assert.match(text, SAYS[what(line)], command);
     }
   } finally {
     robot.kill('SIGINT');
