@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "firmware/apps/can/guard_controller.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 #include "tests/can/base_side.hpp"
-#include "tests/can/party.hpp"
 #include "tests/can/serial_line.hpp"
 
 namespace whisker::test {
@@ -78,7 +78,7 @@ class GuardRig {
   std::uint32_t said_ms_ = 0;
 
  public:
-  Party hand;                                ///< the operator; its number is that of the robot
+  bus::ScriptedNode hand;                    ///< the operator; its number is that of the robot
   std::optional<can::VelocityCommand> wish;  ///< sent every `every_ms`; none: silence
   std::uint32_t every_ms = 20;
 };

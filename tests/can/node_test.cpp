@@ -3,7 +3,7 @@
 
 #include "firmware/can/base_node.hpp"
 #include "firmware/can/controller_node.hpp"
-#include "tests/can/party.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 
 namespace whisker::can {
 namespace {
@@ -17,7 +17,7 @@ class BaseAlone : public testing::Test {
  protected:
   bus::MemoryBus wire_;
   BaseNode base_{wire_.attach(), kIdentity, kRamp};
-  test::Party peer_{wire_, 1};
+  bus::ScriptedNode peer_{wire_, 1};
   std::uint32_t now_ = 1000;
   std::uint32_t tick_ = 0;
   bool beats_ = true;
@@ -270,7 +270,7 @@ TEST_F(BaseAlone, AnyDataFrameOnAnEStopIdentifierStops) {
     for (std::uint8_t size = 0; size <= 8; ++size) {
       bus::MemoryBus wire;
       BaseNode base{wire.attach(), kIdentity, kRamp};
-      test::Party peer{wire, 1};
+      bus::ScriptedNode peer{wire, 1};
       hal::CanFrame frame{id, false, false, size, {1, 2, 3, 4, 5, 6, 7, 8}};
       base.poll(1);
       peer.send(frame);
@@ -464,7 +464,7 @@ TEST_F(BaseAlone, AStuckCounterEndsInASafeStop) {
 
 TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
   start();
-  test::Party twin{wire_, 9};
+  bus::ScriptedNode twin{wire_, 9};
   twin.poll(now_);
   twin.say(Heartbeat{});
   pass();
@@ -545,7 +545,7 @@ class ControllerAlone : public testing::Test {
  protected:
   bus::MemoryBus wire_;
   ControllerNode node_{wire_.attach(), kIdentity};
-  test::Party peer_{wire_, 9};
+  bus::ScriptedNode peer_{wire_, 9};
   std::uint32_t now_ = 1000;
   std::uint32_t tick_ = 100;
   std::uint8_t mission_ = 7;

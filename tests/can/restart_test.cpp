@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
+#include "host/harness/bus/scripted_node.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "tests/can/loop.hpp"
-#include "tests/can/party.hpp"
 
 namespace whisker {
 namespace {
@@ -115,7 +115,7 @@ class Taciturn {
     }
   }
 
-  test::Party party_;
+  bus::ScriptedNode party_;
   const std::set<can::MessageKind> answers_;
   const can::MissionStatus status_;
 };
@@ -166,7 +166,7 @@ TEST(Silence, ThePlantNamesTheRequestThatStaysWithoutAnAnswer) {
 TEST(Silence, TheControllerNamesWhatABaseNoLongerSends) {
   bus::MemoryBus wire;
   can::ControllerNode node(wire.attach(), {1, 5, 0});
-  test::Party base(wire, 9);
+  bus::ScriptedNode base(wire, 9);
   std::uint32_t now = 0;
   const auto pass = [&](int ms, bool beats) {
     for (int i = 0; i < ms; ++i) {

@@ -6,10 +6,10 @@
 
 #include "firmware/apps/can/controller.hpp"
 #include "firmware/planning/goal_planner.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 #include "host/harness/run/runner.hpp"
 #include "host/harness/scenario/robot.hpp"
 #include "tests/can/base_side.hpp"
-#include "tests/can/party.hpp"
 
 namespace whisker::test {
 
@@ -112,8 +112,8 @@ class Rig {
   std::vector<Seen> seen_;
 
  public:
-  Party third;  ///< of robot 3
-  Party hand;   ///< the operator; its number is that of the robot
+  bus::ScriptedNode third;  ///< of robot 3
+  bus::ScriptedNode hand;   ///< the operator; its number is that of the robot
 };
 
 }  // namespace whisker::test

@@ -5,7 +5,7 @@
 
 #include "firmware/can/controller_node.hpp"
 #include "firmware/fuzzy/response_table.hpp"
-#include "tests/can/party.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 
 namespace whisker::can {
 namespace {
@@ -28,7 +28,7 @@ class RulesAtANode : public testing::Test {
   bus::MemoryBus wire_;
   RulesServerWith<2> rules_{kResponseTable};
   std::unique_ptr<ControllerNode> node_;
-  test::Party peer_{wire_, 9};
+  bus::ScriptedNode peer_{wire_, 9};
   std::uint32_t now_ = 1000;
   std::uint32_t tick_ = 100, counts_ = 5000;
   std::uint8_t mission_ = 7;

@@ -9,10 +9,10 @@
 #include "firmware/fuzzy/response_table.hpp"
 #include "host/harness/bus/fault_port.hpp"
 #include "host/harness/bus/memory_bus.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 #include "host/harness/hil/host_rules.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "tests/can/loop.hpp"
-#include "tests/can/party.hpp"
 #include "tests/can/rules_tables.hpp"
 
 namespace whisker::can {
@@ -126,7 +126,7 @@ TEST(RulesSender, ABlockThatIsAnsweredTwiceIsNotFollowedByTwo) {
   const Table table = straight();
   bus::MemoryBus wire;
   BaseNode base(wire.attach(), {1, 11, 0}, 100);
-  test::Party controller(wire, 1);
+  bus::ScriptedNode controller(wire, 1);
   RulesSender sender(base, &table, 1);
   std::uint32_t now = 0;
   const auto parts_after = [&](const RulesReply& reply) {

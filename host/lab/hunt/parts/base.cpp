@@ -47,7 +47,7 @@ std::string judge_stop(Dice& dice) {
       due = NodeState::e_stopped;
       break;
     default: {
-      Voice twin(b.wire, 9);
+      bus::ScriptedNode twin(b.wire, 9);
       twin.send(twin.frame(Sync{}));
       error = Error::duplicate_node;
       most = 4;
@@ -101,10 +101,10 @@ std::string judge_periods(Dice& dice) {
   b.pass(10);
   b.peer.forget();
   b.pass(3000);
-  if (std::abs(b.peer.count<Heartbeat>() - 30) > 1) return "heartbeats of another period";
-  if (std::abs(b.peer.count<FaultReport>() - (standing != 0 ? 3 : 0)) > 1)
+  if (std::abs(b.peer.heard<Heartbeat>() - 30) > 1) return "heartbeats of another period";
+  if (std::abs(b.peer.heard<FaultReport>() - (standing != 0 ? 3 : 0)) > 1)
     return "reports of faults of another period";
-  if (std::abs(b.peer.count<Diagnostics>() - 6) > 1) return "diagnostics of another period";
+  if (std::abs(b.peer.heard<Diagnostics>() - 6) > 1) return "diagnostics of another period";
   int part = -1;
   bool in_turn = true;
   b.peer.each<Diagnostics>([&](const Diagnostics& d) {

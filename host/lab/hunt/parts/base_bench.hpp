@@ -7,8 +7,8 @@
 
 #include "firmware/can/base_node.hpp"
 #include "firmware/can/limits.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 #include "host/lab/hunt/dice.hpp"
-#include "host/lab/hunt/parts/voice.hpp"
 
 namespace whisker::hunt {
 
@@ -21,8 +21,8 @@ constexpr std::int16_t kRamp = 100;
 struct BaseBench {
   bus::MemoryBus wire;
   BaseNode base{wire.attach(), {1, kBoot, 0x000100}, kRamp};
-  Voice peer{wire, 1};
-  Voice stranger{wire, 3};
+  bus::ScriptedNode peer{wire, 1};
+  bus::ScriptedNode stranger{wire, 3};
   std::uint32_t began, now, tick = 0;
   std::uint16_t peer_boot = 600;
   bool beats = true, answers = true;
@@ -103,18 +103,18 @@ struct BaseBench {
     if (base.order_state() != OrderState::waiting || base.state() == NodeState::running)
       return "a strange answer counts";
     if (dice.chance(0.3)) {
-      const int before = peer.count<MissionOrder>();
+      const int before = peer.heard<MissionOrder>();
       peer.say(MissionReply{MissionStatus::incomplete, said.mission});
       pass(3);
-      if (peer.count<MissionOrder>() == before) return "an incomplete order is not repeated at once";
+      if (peer.heard<MissionOrder>() == before) return "an incomplete order is not repeated at once";
     }
     peer.say(MissionReply{MissionStatus::accepted, said.mission});
     pass(2);
     if (base.order_state() != OrderState::accepted || base.order_status() != MissionStatus::accepted)
       return "not accepted";
-    const int orders = peer.count<MissionOrder>();
+    const int orders = peer.heard<MissionOrder>();
     pass(60);
-    if (peer.count<MissionOrder>() != orders) return "an accepted order is repeated";
+    if (peer.heard<MissionOrder>() != orders) return "an accepted order is repeated";
     if (base.state() != NodeState::running) return "it does not run";
     return speeds.left == asked.left && speeds.right == asked.right ? "" : "another speed than commanded";
   }

@@ -62,7 +62,7 @@ std::string judge_silence(Dice& dice) {
   b.peer.forget();
   bool held = false;
   const int ms = b.until([&] {
-    held = held || (b.peer.count<WheelCommand>() > 0 && b.mode() == DriveMode::stop);
+    held = held || (b.peer.heard<WheelCommand>() > 0 && b.mode() == DriveMode::stop);
     return b.node.state() != NodeState::running;
   });
   const int due[] = {91, 91, 91, 41, 91};
@@ -78,7 +78,7 @@ std::string judge_silence(Dice& dice) {
   if (b.node.state() != NodeState::safe_stop) return "it goes on by itself";
   b.peer.forget();
   b.pass(30);
-  if (b.mode() != DriveMode::stop || std::abs(b.peer.count<WheelCommand>() - 3) > 1)
+  if (b.mode() != DriveMode::stop || std::abs(b.peer.heard<WheelCommand>() - 3) > 1)
     return "it does not brake on";
   ++b.mission;
   const bool resumes = dice.chance(0.5);
@@ -147,8 +147,8 @@ std::string judge_reports(Dice& dice) {
     static_cast<void>(due);
     const bool periodic = b.tick % 50 == 0 || (b.tick - 1) % 50 == 0;
     if (periodic) continue;
-    if ((b.peer.count<RangeTrustReport>() > 0) != (ends || changes)) return "trust at another time";
-    if ((b.peer.count<PoseSigmaReport>() > 0) != sigma_ends) return "sigma at another time";
+    if ((b.peer.heard<RangeTrustReport>() > 0) != (ends || changes)) return "trust at another time";
+    if ((b.peer.heard<PoseSigmaReport>() > 0) != sigma_ends) return "sigma at another time";
   }
   while (b.tick % 50 != 0) {
     b.pass();

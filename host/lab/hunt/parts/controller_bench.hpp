@@ -7,8 +7,8 @@
 
 #include "firmware/can/controller_node.hpp"
 #include "firmware/can/limits.hpp"
+#include "host/harness/bus/scripted_node.hpp"
 #include "host/lab/hunt/dice.hpp"
-#include "host/lab/hunt/parts/voice.hpp"
 
 namespace whisker::hunt {
 
@@ -20,8 +20,8 @@ constexpr std::uint16_t kBoot = 500;
 struct ControllerBench {
   bus::MemoryBus wire;
   ControllerNode node{wire.attach(), {1, kBoot, 0x000100, 0x1234}};
-  Voice peer{wire, 9};
-  Voice hand{wire, 1};  // the operator's frames have the node's number
+  bus::ScriptedNode peer{wire, 9};
+  bus::ScriptedNode hand{wire, 1};  // the operator's frames have the node's number
   Dice& dice;
   std::uint32_t now, tick;
   std::uint16_t boot = 600;
@@ -105,7 +105,7 @@ struct ControllerBench {
     }
     return ms;
   }
-  void order(Voice& voice, Order what, const Mission& m) {
+  void order(bus::ScriptedNode& voice, Order what, const Mission& m) {
     const MissionValues values = values_of(m);
     for (int i = 0; i < kMissionValues; ++i)
       voice.say(MissionValue{static_cast<MissionPart>(i + 1), mission, values.of[i]});
@@ -138,7 +138,7 @@ struct ControllerBench {
     if (!rules) return "it does not tell its rules";
     pass(50);
     if (steps != 0 || mode() != DriveMode::stop) return "it drives without a mission";
-    if (std::abs(peer.count<WheelCommand>() - 5) > 1) return "stops of another period";
+    if (std::abs(peer.heard<WheelCommand>() - 5) > 1) return "stops of another period";
     const Mission m = draw_mission();
     const int before = orders;
     order(peer, Order::start, m);

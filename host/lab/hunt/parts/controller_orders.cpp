@@ -84,7 +84,7 @@ std::string judge_params(Dice& dice) {
   b.peer.greet(b.boot, NodeState::ready);
   b.pass(2);
   const bool by_hand = dice.chance(0.3);
-  Voice& voice = by_hand ? b.hand : b.peer;
+  bus::ScriptedNode& voice = by_hand ? b.hand : b.peer;
   const auto ask = [&](ParamAction action, int index, std::int64_t raw, ParamReply& reply) {
     b.peer.forget();
     voice.say(ParamRequest{action, static_cast<std::uint8_t>(index), static_cast<std::uint32_t>(raw)});

@@ -1,18 +1,19 @@
-/// A node that sends exactly what the test says.
+/// A node on a bus in memory that sends exactly what it is told to.
 #pragma once
 
+#include <cstdint>
 #include <deque>
-#include <functional>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/can/messages.hpp"
 #include "firmware/can/table_hash.hpp"
 #include "host/harness/bus/memory_bus.hpp"
 
-namespace whisker::test {
+namespace whisker::bus {
 
-class Party {
+class ScriptedNode {
  public:
-  Party(bus::MemoryBus& wire, std::uint8_t node) : port_(wire.attach()), node_(node) {}
+  ScriptedNode(MemoryBus& wire, std::uint8_t node) : port_(wire.attach()), node_(node) {}
 
   template <class M>
   hal::CanFrame frame(const M& m) {
@@ -44,20 +45,29 @@ class Party {
     }
     return false;
   }
+  /// How many frames of this kind were received, unchecked.
   template <class M>
   int heard() const {
     int n = 0;
     for (const hal::CanFrame& f : heard_) n += f.id >> 4 == can::message_of(M::kKind).function ? 1 : 0;
     return n;
   }
+  /// Calls f(message) for each frame of this kind that the codec accepts.
+  template <class M, class F>
+  void each(const F& f) const {
+    for (const hal::CanFrame& frame : heard_) {
+      M m;
+      if (frame.id >> 4 == can::message_of(M::kKind).function && can::decode(frame, m)) f(m);
+    }
+  }
   void forget() { heard_.clear(); }
   const std::deque<hal::CanFrame>& frames() const { return heard_; }
 
  private:
-  bus::MemoryPort& port_;
+  MemoryPort& port_;
   std::uint8_t node_;
   can::AliveSender alive_[can::kKinds];
   std::deque<hal::CanFrame> heard_;
 };
 
-}  // namespace whisker::test
+}  // namespace whisker::bus
