@@ -1,23 +1,16 @@
 #include "firmware/calibration/record.hpp"
 
-#include "firmware/math/crc32.hpp"
+#include "firmware/storage/words.hpp"
 
 namespace whisker::calibration {
 namespace {
 
+using storage::get_word;
+using storage::put_word;
+
 constexpr uint8_t kHeaderBytes = 4;
 constexpr uint8_t kCrcBytes = 4;
 static_assert(kRecordBytes == kHeaderBytes + 8 * kQuantities + kCrcBytes);
-
-void put(uint8_t* to, uint32_t word) noexcept {
-  for (int i = 0; i < 4; ++i) to[i] = static_cast<uint8_t>(word >> (8 * i));
-}
-
-uint32_t get(const uint8_t* from) noexcept {
-  uint32_t word = 0;
-  for (int i = 0; i < 4; ++i) word |= uint32_t{from[i]} << (8 * i);
-  return word;
-}
 
 }  // namespace
 
@@ -34,11 +27,11 @@ void encode(const Record& record, uint8_t* bytes) noexcept {
   bytes[3] = static_cast<uint8_t>(record.sequence >> 8);
   uint8_t* at = bytes + kHeaderBytes;
   for (const Measured& measured : record.values.of) {
-    put(at, static_cast<uint32_t>(measured.value));
-    put(at + 4, static_cast<uint32_t>(measured.sigma.raw()));
+    put_word(at, static_cast<uint32_t>(measured.value));
+    put_word(at + 4, static_cast<uint32_t>(measured.sigma.raw()));
     at += 8;
   }
-  put(at, crc32(bytes, kRecordBytes - kCrcBytes));
+  put_word(at, crc32(bytes, kRecordBytes - kCrcBytes));
 }
 
 Decoded decode(const uint8_t* bytes, uint8_t size, Record& record) noexcept {
@@ -46,13 +39,13 @@ Decoded decode(const uint8_t* bytes, uint8_t size, Record& record) noexcept {
   const uint8_t told = bytes[1];
   if (told < kHeaderBytes + kCrcBytes || told > size) return Decoded::damaged;
   const uint8_t protected_bytes = static_cast<uint8_t>(told - kCrcBytes);
-  if (get(bytes + protected_bytes) != crc32(bytes, protected_bytes)) return Decoded::damaged;
+  if (get_word(bytes + protected_bytes) != crc32(bytes, protected_bytes)) return Decoded::damaged;
   if (bytes[0] != kVersion || told != kRecordBytes) return Decoded::other_version;
   record.sequence = static_cast<uint16_t>(bytes[2] | bytes[3] << 8);
   const uint8_t* at = bytes + kHeaderBytes;
   for (Measured& measured : record.values.of) {
-    measured.value = as_signed(get(at));
-    measured.sigma = Ratio::from_raw(as_signed(get(at + 4)));
+    measured.value = as_signed(get_word(at));
+    measured.sigma = Ratio::from_raw(as_signed(get_word(at + 4)));
     at += 8;
   }
   return Decoded::ok;

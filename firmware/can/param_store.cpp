@@ -1,8 +1,8 @@
 #include "firmware/can/param_store.hpp"
 
 #include "firmware/can/param_server.hpp"
-#include "firmware/math/crc32.hpp"
 #include "firmware/params/words.hpp"
+#include "firmware/storage/words.hpp"
 
 namespace whisker::can {
 namespace {
@@ -17,40 +17,18 @@ constexpr uint32_t header(uint16_t sequence) noexcept {
   return kParamVersion | uint32_t{kParams} << 8 | uint32_t{sequence} << 16;
 }
 
-class Sum {
- public:
-  void add(uint32_t word) noexcept {
-    for (int shift = 0; shift < 32; shift += 8) crc_.add(static_cast<uint8_t>(word >> shift));
-  }
-  uint32_t value() const noexcept { return crc_.value(); }
-
- private:
-  Crc32 crc_;
-};
-
-void put(uint8_t (&record)[kParamRecordBytes], uint16_t at, uint32_t word) noexcept {
-  for (uint16_t i = 0; i < 4; ++i) record[4U * at + i] = static_cast<uint8_t>(word >> (8U * i));
-}
-
 }  // namespace
 
-bool ParamStore::read(uint8_t slot, uint16_t word, uint32_t& value) noexcept {
-  uint8_t bytes[4];
-  if (!storage_.read(slot, static_cast<uint16_t>(4 * word), bytes, sizeof bytes)) return false;
-  value = bytes[0] | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 | uint32_t{bytes[3]} << 24;
-  return true;
-}
-
 Content ParamStore::judge(uint8_t slot, uint16_t& sequence, Params* params) noexcept {
-  Sum sum;
+  Crc32 sum;
   uint32_t word = 0;
   uint32_t first = 0;
   uint32_t version = 0;
   Params found;
   bool in_range = true;
   for (uint16_t i = 0; i < kSum; ++i) {
-    if (!read(slot, i, word)) return Content::no_answer;
-    sum.add(word);
+    if (!storage::read_word(storage_, slot, i, word)) return Content::no_answer;
+    storage::add_word(sum, word);
     if (i == 0) first = word;
     if (i == 1) version = word;
     if (i < kHeaderWords) continue;
@@ -58,7 +36,7 @@ Content ParamStore::judge(uint8_t slot, uint16_t& sequence, Params* params) noex
     if (is_derived(index)) continue;
     in_range = write_param(found, index, word) == ParamStatus::ok && in_range;
   }
-  if (!read(slot, kSum, word)) return Content::no_answer;
+  if (!storage::read_word(storage_, slot, kSum, word)) return Content::no_answer;
   if (word != sum.value()) return Content::damaged;
   sequence = static_cast<uint16_t>(first >> 16);
   if (first != header(sequence) || version != version_) return Content::other_version;
@@ -84,10 +62,10 @@ Stored ParamStore::save(const Params& params) noexcept {
   const auto sequence = static_cast<uint16_t>(last.sequence + 1);
   const uint8_t slot = last.other();
   uint8_t bytes[kParamRecordBytes];
-  Sum sum;
+  Crc32 sum;
   const auto add = [&](uint16_t at, uint32_t word) {
-    put(bytes, at, word);
-    sum.add(word);
+    storage::put_word(bytes + 4 * at, word);
+    storage::add_word(sum, word);
   };
   add(0, header(sequence));
   add(1, version_);
@@ -96,7 +74,7 @@ Stored ParamStore::save(const Params& params) noexcept {
     read_param(params, i, raw);
     add(static_cast<uint16_t>(kHeaderWords + i), raw);
   }
-  put(bytes, kSum, sum.value());
+  storage::put_word(bytes + 4 * kSum, sum.value());
   if (!storage_.erase(slot) || !storage_.write(slot, 0, bytes, sizeof bytes)) return Stored::not_written;
   uint16_t written = 0;
   return judge(slot, written, nullptr) == Content::record && written == sequence ? Stored::ok

@@ -40,7 +40,6 @@ class ParamStore {
   storage::Newest newest() noexcept;
   /// Reads the record of a slot. params: null, or set from it.
   storage::Content judge(uint8_t slot, uint16_t& sequence, Params* params) noexcept;
-  bool read(uint8_t slot, uint16_t word, uint32_t& value) noexcept;
 
   hal::Storage& storage_;
   const uint32_t version_;

@@ -1,24 +1,19 @@
 #include "firmware/fuzzy/table_store.hpp"
 
-#include "firmware/math/crc32.hpp"
 #include "firmware/math/fixed.hpp"
+#include "firmware/storage/words.hpp"
 
 namespace whisker::fuzzy {
 namespace {
 
+using storage::add_word;
+using storage::byte_of;
 using storage::Content;
 
 constexpr uint16_t kHeaderWords = 2;
-static_assert(hal::Storage::kGrain == 4, "a record is written word by word");
-
-constexpr uint8_t byte_of(uint32_t word, int i) noexcept { return static_cast<uint8_t>(word >> (8 * i)); }
 
 constexpr uint32_t word_of(uint8_t b0, uint8_t b1, uint16_t high) noexcept {
   return b0 | uint32_t{b1} << 8 | uint32_t{high} << 16;
-}
-
-void add(Crc32& crc, uint32_t word) noexcept {
-  for (int i = 0; i < 4; ++i) crc.add(byte_of(word, i));
 }
 
 constexpr uint32_t shape(uint16_t bytes) noexcept {
@@ -36,14 +31,12 @@ int16_t half_of(uint32_t word, int shift) noexcept {
 }  // namespace
 
 bool TableStore::read(uint8_t slot, uint16_t word, uint32_t& value) noexcept {
-  uint8_t bytes[4];
-  if (!storage_.read(slot, static_cast<uint16_t>(4 * word), bytes, sizeof bytes)) return false;
-  value = word_of(bytes[0], bytes[1], static_cast<uint16_t>(bytes[2] | bytes[3] << 8));
-  return true;
+  return storage::read_word(storage_, slot, word, value);
 }
 
 bool TableStore::write(uint8_t slot, uint16_t word, uint32_t value) noexcept {
-  const uint8_t bytes[] = {byte_of(value, 0), byte_of(value, 1), byte_of(value, 2), byte_of(value, 3)};
+  uint8_t bytes[4];
+  storage::put_word(bytes, value);
   return storage_.write(slot, static_cast<uint16_t>(4 * word), bytes, sizeof bytes);
 }
 
@@ -57,7 +50,7 @@ Content TableStore::judge(uint8_t slot, uint16_t& sequence) noexcept {
   uint32_t word = 0;
   for (uint16_t i = 0; i < last; ++i) {
     if (!read(slot, i, word)) return Content::no_answer;
-    add(crc, word);
+    add_word(crc, word);
   }
   if (!read(slot, last, word)) return Content::no_answer;
   if (word != crc.value()) return Content::damaged;
@@ -89,7 +82,7 @@ bool TableStore::for_each_word(uint16_t sequence, const Bilinear::Table* table, 
   Crc32 crc;
   uint16_t at = 0;
   const auto next = [&](uint32_t word) {
-    add(crc, word);
+    add_word(crc, word);
     return use(at++, word);
   };
   const uint16_t bytes = table != nullptr ? kTableRecordBytes : kBuiltInRecordBytes;

@@ -37,7 +37,7 @@ NODE = (
     (r"3can(4Node|14ControllerNode|8BusGuard)", r"ControllerNode(10reset_peerE|7at_restE|5timedE)|5slcan5Slcan(4sendE|7receiveE|4pollE|7restartE|5stateE|6countsE)"),
     (r"5slcan5Slcan", r"8UartPort.*(4takeE|5offerE|5readyE)"),
     (r"11RemoteRobot7executeE", r"8Planners4makeE"),
-    (r"5fuzzy10TableStore", None),  # no storage
+    (r"5fuzzy10TableStore|7storage9read_wordE", None),  # no storage
     (r"7can_app10Controller4saveE", None),  # no calibrator
     (r"^main$", r"12Milliseconds.*6now_msE|8UartPort.*4takeE|12CounterMeter.*5stampE"),
 )  # fmt: skip

@@ -1,19 +1,16 @@
 // Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
+#include "firmware/math/crc32.hpp"
 #include "hal/board.hpp"
 #include "hal/boards/pico/image.hpp"
 #include "hal/boards/pico/interrupts.hpp"
 #include "hal/boards/pico/motors.hpp"
+#include "hal/runtime/sections.hpp"
 #include "hal/runtime/stack.hpp"
 
 int main();
 
 extern "C" {
 
-extern uint32_t __data_load[];
-extern uint32_t __data_start[];
-extern uint32_t __data_end[];
-extern uint32_t __bss_start[];
-extern uint32_t __bss_end[];
 extern const uint8_t __image_end[];
 
 [[noreturn]] void reset() noexcept;
@@ -60,28 +57,6 @@ constexpr Vectors vectors() noexcept {
 
 constexpr uintptr_t kFlash = 0x10000000;
 
-struct Table {
-  uint32_t of[16];
-};
-
-constexpr Table table() noexcept {
-  Table t{};
-  for (uint32_t half = 0; half < 16; ++half) {
-    uint32_t bits = half;
-    for (int i = 0; i < 4; ++i) bits = (bits >> 1) ^ ((bits & 1U) != 0 ? UINT32_C(0xEDB88320) : 0);
-    t.of[half] = bits;
-  }
-  return t;
-}
-
-constexpr Table kTable = table();
-
-/// CRC-32 as firmware/math/crc32.hpp, by half a byte.
-uint32_t add(uint32_t sum, uint8_t byte) noexcept {
-  sum = (sum >> 4) ^ kTable.of[(sum ^ byte) & 15U];
-  return (sum >> 4) ^ kTable.of[(sum ^ byte >> 4) & 15U];
-}
-
 }  // namespace
 
 bool image_is_intact() noexcept {
@@ -93,19 +68,17 @@ bool image_is_intact() noexcept {
       end != __image_end) {
     return false;
   }
-  uint32_t found = UINT32_MAX;
+  Crc32 found;
   for (const auto* at = first; at < end; ++at)
-    found = add(found, at >= sum && at < sum + sizeof(uint32_t) ? UINT8_MAX : *at);
-  return ~found == *reinterpret_cast<const volatile uint32_t*>(&kVectors.image.sum);
+    found.add(at >= sum && at < sum + sizeof(uint32_t) ? UINT8_MAX : *at);
+  return found.value() == *reinterpret_cast<const volatile uint32_t*>(&kVectors.image.sum);
 }
 
 }  // namespace whisker::hal::pico
 
 void reset() noexcept {
   using namespace whisker::hal;
-  const uint32_t* from = __data_load;
-  for (volatile uint32_t* to = __data_start; to < __data_end; ++to) *to = *from++;
-  for (volatile uint32_t* to = __bss_start; to < __bss_end; ++to) *to = 0;
+  mcu::begin_memory();
   mcu::paint_stack(static_cast<uint32_t*>(__builtin_frame_address(0)) - 8);
   main();
   pico::stand_still();

@@ -1,16 +1,12 @@
 // Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
 #include "hal/boards/stm32f405/interrupts.hpp"
 #include "hal/boards/stm32f405/motors.hpp"
+#include "hal/runtime/sections.hpp"
 
 int main();
 
 extern "C" {
 
-extern uint32_t __data_load[];
-extern uint32_t __data_start[];
-extern uint32_t __data_end[];
-extern uint32_t __bss_start[];
-extern uint32_t __bss_end[];
 extern uint32_t __stack_top[];
 
 [[noreturn]] void reset() noexcept;
@@ -53,9 +49,7 @@ constexpr Vectors vectors() noexcept {
 }  // namespace
 
 void reset() noexcept {
-  const uint32_t* from = __data_load;
-  for (volatile uint32_t* to = __data_start; to < __data_end; ++to) *to = *from++;
-  for (volatile uint32_t* to = __bss_start; to < __bss_end; ++to) *to = 0;
+  whisker::hal::mcu::begin_memory();
   main();
   stand_still();
 }

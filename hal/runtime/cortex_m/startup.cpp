@@ -1,25 +1,18 @@
 // Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
 #include "hal/board.hpp"
+#include "hal/runtime/sections.hpp"
 #include "hal/runtime/stack.hpp"
 
 int main();
 
 extern "C" {
 
-extern uint32_t __data_load[];
-extern uint32_t __data_start[];
-extern uint32_t __data_end[];
-extern uint32_t __bss_start[];
-extern uint32_t __bss_end[];
-
 [[noreturn]] void reset() noexcept;
 [[noreturn]] void unexpected() noexcept;
 
 void reset() noexcept {
   using namespace whisker::hal::mcu;
-  const uint32_t* from = __data_load;
-  for (volatile uint32_t* to = __data_start; to < __data_end; ++to) *to = *from++;
-  for (volatile uint32_t* to = __bss_start; to < __bss_end; ++to) *to = 0;
+  begin_memory();
   paint_stack(static_cast<uint32_t*>(__builtin_frame_address(0)) - 8);
   whisker::hal::leave(main());
 }
