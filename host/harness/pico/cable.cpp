@@ -111,9 +111,9 @@ void Cable::act() {
         asked_us_.reset();
         ++index_;
       }
-      while (index_ < kParams && is_derived(index_)) ++index_;
       std::uint32_t raw = 0;
-      if (can::read_param(params_, index_, raw)) return ask({can::ParamAction::write, index_, raw});
+      while (index_ < kParams && !can::read_param(params_, index_, raw)) ++index_;
+      if (index_ < kParams) return ask({can::ParamAction::write, index_, raw});
       phase_ = Phase::commits;
       return;
     }

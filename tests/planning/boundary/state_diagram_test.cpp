@@ -176,7 +176,7 @@ TEST(StateDiagram, StopsTheTestsAtAnEventWithoutAnArrow) {
   decision.mode = Mode::following;
 #ifdef WHISKER_ASSERTS
   EXPECT_DEATH(change(BoundaryFollower::kTransitions, BoundaryFollower::Event::opening, phase, decision),
-               "kTableKnowsTheEvent");
+               "knows_the_event");
 #else
   change(BoundaryFollower::kTransitions, BoundaryFollower::Event::opening, phase, decision);
 #endif
