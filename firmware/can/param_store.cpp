@@ -1,5 +1,7 @@
 #include "firmware/can/param_store.hpp"
 
+#include <stddef.h>
+
 #include "firmware/can/param_server.hpp"
 #include "firmware/params/words.hpp"
 #include "firmware/storage/words.hpp"
@@ -64,7 +66,7 @@ Stored ParamStore::save(const Params& params) noexcept {
   uint8_t bytes[kParamRecordBytes];
   Crc32 sum;
   const auto add = [&](uint16_t at, uint32_t word) {
-    storage::put_word(bytes + 4 * at, word);
+    storage::put_word(&bytes[size_t{4} * at], word);
     storage::add_word(sum, word);
   };
   add(0, header(sequence));
@@ -74,7 +76,7 @@ Stored ParamStore::save(const Params& params) noexcept {
     read_param(params, i, raw);
     add(static_cast<uint16_t>(kHeaderWords + i), raw);
   }
-  storage::put_word(bytes + 4 * kSum, sum.value());
+  storage::put_word(&bytes[size_t{4} * kSum], sum.value());
   if (!storage_.erase(slot) || !storage_.write(slot, 0, bytes, sizeof bytes)) return Stored::not_written;
   uint16_t written = 0;
   return judge(slot, written, nullptr) == Content::record && written == sequence ? Stored::ok

@@ -4,6 +4,22 @@ import {readFile, writeFile} from 'node:fs/promises';
 import {bundledPage} from './bundle.mjs';
 
 const MOST_BYTES = 260_000;
+
+/**
+ * The number of zeros that fill the last word, then four bytes in five characters of ( to |, low digit first; } stands
+ * for <. src/playground/main.ts reads it.
+ */
+function base85(bytes) {
+  const fill = -bytes.length & 3;
+  const words = Buffer.concat([bytes, Buffer.alloc(fill)]);
+  let text = `${fill}`;
+  for (let at = 0; at < words.length; at += 4) {
+    let word = words.readUInt32LE(at);
+    for (let i = 0; i < 5; ++i, word = Math.floor(word / 85)) text += String.fromCharCode(40 + (word % 85));
+  }
+  return text.replaceAll('<', '}');
+}
+
 const [module, file] = process.argv.slice(2);
 if (!file) {
   console.error('usage: node playground.mjs MODULE.wasm PAGE.html');
@@ -16,7 +32,7 @@ const page = await bundledPage({
   html: 'playground.html',
   sheets: ['style.css', 'playground.css'],
   entry: 'playground/main.ts',
-  more: {module: deflateSync(wasm, {level: 9, memLevel: 7}).toString('base64')},
+  more: {module: base85(deflateSync(wasm, {level: 9}))},
 });
 if (page.length > MOST_BYTES) throw new Error(`${page.length} bytes; at most ${MOST_BYTES}`);
 await writeFile(file, page);
