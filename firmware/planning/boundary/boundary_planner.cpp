@@ -119,7 +119,10 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (view.sighted && decision_.why == Why::narrow) slits_.look(view, view.pose.heading);
+  if (view.sighted && decision_.why == Why::narrow) {
+    slits_.look(view, view.pose.heading);
+    slits_.look(view, target_.direction());
+  }
   if (approach_.blocked() && try_door(view, view.pose.heading)) return;
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
@@ -145,7 +148,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
   if (view.sighted) slits_.look(view, view.pose.heading);
-  if (approach_.has_guide() && try_door(view, target_.direction())) return;
+  if ((approach_.has_guide() || slits_.next_in_wall(view)) && try_door(view, target_.direction())) return;
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;

@@ -143,7 +143,8 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   const Vec at{(jambs_[0].x + jambs_[1].x) / 2, (jambs_[0].y + jambs_[1].y) / 2};
   const Angle ahead = bearing(across_gap) - 90_deg;
   ++rounds_;
-  seen_ = 0;
+  // So much room needs only one new jamb for a new pair: this one and the last one.
+  seen_ = promised_ ? static_cast<uint8_t>(1U << index(opposite(side_))) : uint8_t{0};
   sweeps_ = 0;
   if (promised_ && width < promised_width(view)) return Result::failed;
   if (narrow || width > for_body(params, kJambs)) {
@@ -162,8 +163,11 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   const Length spare = width / 2 - view.local_grid->reach().guard;
   const bool same = opened_ && magnitude(change) < kTilted.raw() &&
                     max(aside, -aside) < (promised_ ? spare / kSparePart : for_body(params, kOff));
-  at_ = at;
-  ahead_ += change;
+  // Where it is the same, the body keeps to the middle of the lane that is open.
+  if (!same || !promised_) {
+    at_ = at;
+    ahead_ += change;
+  }
   if (same || (opened_ && rounds_ > kRounds)) {
     enter(Phase::face);
     return Result::under_way;
@@ -186,19 +190,23 @@ Length GapPassage::promised_width(const View& view) const noexcept {
   return (view.local_grid->reach().planning + grid_cell(behaviours_.params) * 2) * 2;
 }
 
+Speed GapPassage::pace() const noexcept {
+  return behaviours_.params.wheels.max_speed * (promised_ ? 2 : 1) / 5;
+}
+
 Vec GapPassage::before(Length reference) const noexcept {
   return at_ - polar(ahead_, for_body(behaviours_.params, reference));
 }
 
 Vec GapPassage::rest(const View& view) const noexcept {
-  return before(moves_ == 0 ? kSeenFrom : kInFront) - view.pose.at;
+  return before(promised_ || moves_ > 0 ? kInFront : kSeenFrom) - view.pose.at;
 }
 
 GapPassage::Result GapPassage::move(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
   const Vec way = rest(view);
   if (farther(way, for_body(params, kThere)) && !behaviours_.stalled(view)) {
-    decision.manoeuvre = steer(bearing(way) - view.pose.heading, params.wheels.max_speed / 5, params);
+    decision.manoeuvre = steer(bearing(way) - view.pose.heading, pace(), params);
     return Result::under_way;
   }
   there_ = true;
@@ -237,7 +245,7 @@ GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexc
     return Result::under_way;
   }
   const Angle back = atan2(across(off, heading).raw(), for_body(params, kPursuit).raw());
-  decision.manoeuvre = steer(heading + back - view.pose.heading, params.wheels.max_speed / 5, params);
+  decision.manoeuvre = steer(heading + back - view.pose.heading, pace(), params);
   return Result::under_way;
 }
 

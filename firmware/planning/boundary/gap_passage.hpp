@@ -65,6 +65,7 @@ class GapPassage {
   Result creep(const View& view, Decision& decision) noexcept;
   /// Heading on the lane.
   Angle way() const noexcept { return returns_ ? ahead_ + 180_deg : ahead_; }
+  Speed pace() const noexcept;
   /// The place on the middle line of the gap at this distance before it.
   Vec before(Length reference) const noexcept;
   /// From the body to the next place from which it measures.

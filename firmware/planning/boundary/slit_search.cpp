@@ -10,6 +10,7 @@ constexpr Length kEvery = 20_mm;
 constexpr Length kHalfWidth = 45_mm;
 constexpr int32_t kUnknown = 2;   // cells
 constexpr Length kJamb = 130_mm;  // from the middle of a slit to the paths that its sides block
+constexpr Length kWall = 320_mm;  // the same for the sides of a slit in a wall
 constexpr Length kSame = 150_mm;  // the distance between two views of one slit
 constexpr Length kTried = 50_mm;  // from a slit that was tried
 constexpr Length kNear = 300_mm;  // a slit that was taken
@@ -37,14 +38,16 @@ void SlitSearch::look(const View& view, Angle ahead) noexcept {
   };
   const perception::Obstacles middle = path(Length{});
   if (middle.suspect != 0 || middle.unknown > kUnknown) return;
-  const perception::Obstacles left = path(kJamb), right = path(-kJamb);
-  if (left.suspect == 0 || right.suspect == 0) return;
+  const auto blocked = [&](Length beside) { return path(beside).suspect != 0; };
+  if (!blocked(kJamb) || !blocked(-kJamb)) return;
   const Vec at = view.pose.at + polar(ahead, length);
   if (tried(at)) return;
   const bool same =
       (known_ >> newest_ & 1U) != 0 && !farther(at - slits_[newest_].at, for_body(params, kSame));
   if (!same) newest_ = static_cast<int8_t>((newest_ + 1) % kKept);
   slits_[newest_] = {at, ahead};
+  const bool in_wall = blocked(kWall) && blocked(-kWall);
+  in_wall_ = static_cast<uint8_t>((in_wall_ & ~(1U << newest_)) | (in_wall ? 1U << newest_ : 0U));
   known_ = static_cast<uint8_t>(known_ | 1U << newest_);
 }
 

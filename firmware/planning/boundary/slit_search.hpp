@@ -34,7 +34,9 @@ class SlitSearch {
   void end_loop(const View& view) noexcept;
   /// A place in the slit at hand, and the heading there.
   const Pose& next(const View& view) const noexcept { return slits_[index_at_hand(view)]; }
-  /// The same. Forgets it.
+  /// The slit at hand lies in a wall: its sides block paths far beside it, too.
+  bool next_in_wall(const View& view) const noexcept { return (in_wall_ >> index_at_hand(view) & 1U) != 0; }
+  /// As next(). Forgets it.
   Pose take(const View& view) noexcept;
   /// The slit that was taken last lies within 0.3 m of this place.
   bool taken_near(Vec at) const noexcept;
@@ -53,7 +55,8 @@ class SlitSearch {
   static constexpr int kKeptTried = 3;
 
   const Behaviours& behaviours_;
-  uint8_t known_ = 0;  // one bit for each slit
+  uint8_t known_ = 0;    // one bit for each slit
+  uint8_t in_wall_ = 0;  // the same
   int8_t newest_ = 0;
   int8_t attempts_ = 0;  // in vain
   bool expected_ = false;
