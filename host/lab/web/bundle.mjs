@@ -1,6 +1,6 @@
 // What both pages are bundled with: build.mjs and playground.mjs.
 import {readFile} from 'node:fs/promises';
-import {build} from 'esbuild';
+import {build} from 'esbuild-wasm';
 
 const here = (path) => new URL(path, import.meta.url);
 // Dark colours are written once; the system's choice and the reader's button both use them.
