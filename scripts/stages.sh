@@ -72,13 +72,13 @@ stage_cross() {
   ctest --preset host --no-tests=error -L '^cross$' -LE '^night$' -V
 }
 
-# vcan_tests LABELS NOT_LABELS [OPTION...]: one with-vcan for all tests, because a micro-VM starts slowly. Each test gets a new vcan0,
+# vcan_tests LABELS [OPTION...]: one with-vcan for all tests, because a micro-VM starts slowly. Each test gets a new vcan0,
 # and creates and removes its other interfaces. ctest reads one folder only: an emulated processor needs seconds to list all.
 vcan_tests() {
-  local -r labels=$1 others=$2 list=build/host/tests/vcan
-  shift 2
+  local -r labels=$1 list=build/host/tests/vcan
+  shift
   local names
-  mapfile -t names < <(ctest --test-dir "$list" -N -L "$labels" -LE "$others" | sed -n 's/^ *Test *#[0-9]*: //p')
+  mapfile -t names < <(ctest --test-dir "$list" -N -L "$labels" | sed -n 's/^ *Test *#[0-9]*: //p')
   ((${#names[@]}))
   # shellcheck disable=SC2016  # for the other shell
   scripts/with-vcan --timeout $((600 * ${#names[@]})) "$@" bash -ec 'list=$1; shift
@@ -94,10 +94,10 @@ vcan_tests() {
 stage_vcan() {
   build host
   if [[ $(scripts/with-vcan --which 2>&1) == "with-vcan: vm" ]]; then
-    vcan_tests '^(vcan|vm)$' '^night$' --vm
+    vcan_tests '^(vcan|vm)$' --vm
   else
-    vcan_tests '^vcan$' '^night$'
-    vcan_tests '^vm$' '^night$' --vm
+    vcan_tests '^vcan$'
+    vcan_tests '^vm$' --vm
   fi
 }
 
@@ -186,7 +186,6 @@ stage_long() {
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" ctest --preset host --no-tests=error -LE '^(targets|vcan|vm)$'
   scripts/chip --build
   ctest --preset host --no-tests=error -L '^targets$' -V -j 1
-  vcan_tests '^night$' '^vm$'
   scripts/playground --build-only
   node --test --test-reporter=tap tests/web/core.test.mjs
   pico_tests tests/pico/*.test.mjs

@@ -17,11 +17,11 @@ PAGE = ROOT / "docs/rules.md"
 PROGRAMS = ROOT / "docs/integration/rules"
 RULES = "host/rules/examples"
 EXAMPLES = {
-    "thesis.toml": "The thesis: 25 rules that steer a robot past obstacles, two outputs.",
-    "tip.fis": "A tip calculator: Mamdani, centroid, with NOT, OR and a weight.",
-    "pendulum.fll": "An inverted pendulum: 25 rules, Mamdani, centroid.",
-    "fan.fcl": "A fan controller like a PID controller, with a proportional and a derivative part: singletons.",
-    "follower.fis": "A follower: Takagi-Sugeno of order 1, two outputs.",
+    "thesis.toml": "the thesis: 25 rules, two outputs",
+    "tip.fis": "a tip calculator: Mamdani, centroid, with NOT, OR and a weight",
+    "pendulum.fll": "an inverted pendulum: 25 rules, Mamdani, centroid",
+    "fan.fcl": "a fan controller with a proportional and a derivative part: singletons",
+    "follower.fis": "a follower: Takagi-Sugeno of order 1, two outputs",
 }
 TOOLS = ("make", "gcc", "arm-none-eabi-gcc", "arm-none-eabi-nm", "arm-none-eabi-objdump", "qemu-system-arm")
 # Inputs asked beside those on the page.
@@ -151,15 +151,25 @@ class Example:
             raise Wrong(f"the look-up of {self.header.name} branches on a Cortex-M3: {branches}")
         return sum(c not in (".word", "nop") for c in code)
 
-    def section(self, broken=False):
+    def row(self, broken=False):
+        """Its line of the table on the page."""
         chip = self.answers(broken)
         self.check_worst(chip, [self.judged(*asked) for asked in chip.asked])
-        told = run(WHISKER, "rules", "compile", self.rules, cwd=ROOT)
         code, table, products = self.sizes()
         name = pathlib.Path(self.rules).name
-        yield f"#### {name}\n\n{EXAMPLES[name]} [The rule base](../{self.rules}), [its program](integration/rules/{self.stem}.c).\n\n"
-        yield f"```\n$ whisker rules compile {self.rules} --header {self.stem}.h\n{told}header: {self.stem}.h\n```\n\n"
-        yield f"Table: {table:,} bytes. Look-up: {code} bytes of code, {chip.cost}, {products} of them multiplications; {self.on_a_cortex_m3()} on a Cortex-M3.\n"
+        files = f"[{name}](../{self.rules}), [program](integration/rules/{self.stem}.c)"
+        error = max(o["max_error_percent"] for o in self.told["outputs"])
+        return line(files, EXAMPLES[name], f"{error:.2f} %", f"{table:,}", f"{code}", chip.cost.partition(" ins")[0], products, self.on_a_cortex_m3())
+
+
+def shown(rows):
+    """What the page shows."""
+    compiler = run("arm-none-eabi-gcc", "-dumpfullversion").strip()
+    yield f"`scripts/measure rule-examples`: arm-none-eabi-gcc {compiler}, `-Os`.\n"
+    yield heading("rule base", "what it is", "greatest error", "table, bytes", "look-up on the M0+: bytes", "instructions", "of them products", "on a Cortex-M3")
+    yield from rows
+    told = run(WHISKER, "rules", "compile", f"{RULES}/tip.fis", cwd=ROOT)
+    yield f"\n```\n$ whisker rules compile {RULES}/tip.fis --header tip.h\n{told}header: tip.h\n```"
 
 
 @table("docs/rules.md", check={"action": "store_true", "help": "exit status 1 if the page shows others"},
@@ -175,12 +185,12 @@ def rule_examples(o):
 
     def example(name):
         try:
-            return "".join(Example(name, pathlib.Path(work)).section(o.broken)), None
+            return Example(name, pathlib.Path(work)).row(o.broken), None
         except Wrong as error:
             return "", f"{name}: {error}"
 
     with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        sections, errors = zip(*pool.map(example, chosen))
+        rows, errors = zip(*pool.map(example, chosen))
     wrong = [error for error in errors if error]
     if o.broken:
         found = sum("the chip answers otherwise" in error for error in wrong)
@@ -189,13 +199,11 @@ def rule_examples(o):
         return
     if wrong:
         fail("\n".join(wrong))
-    compiler = run("arm-none-eabi-gcc", "-dumpfullversion").strip()
-    text = f"`scripts/measure rule-examples`: arm-none-eabi-gcc {compiler}, `-mcpu=cortex-m0plus -Os`.\n\n" + "\n".join(sections)
     if not o.check:
         yield Section("docs/rules.md", "examples", made=False)
-        yield text[:-1]
+        yield from shown(rows)
         return
     before, after = place_in(PAGE, "examples")
-    if PAGE.read_text() != before + text + after:
+    if PAGE.read_text() != before + "".join(f"{text}\n" for text in shown(rows)) + after:
         fail(f"{PAGE.name} shows other examples: scripts/measure rule-examples --update")
     yield f"rule examples: {len(EXAMPLES)} on the chip, as on this computer and on the page"

@@ -1,4 +1,7 @@
 // Each node alone, millisecond by millisecond; the test plays the other node.
+#include <algorithm>
+#include <iterator>
+
 #include <gtest/gtest.h>
 
 #include "firmware/can/base_node.hpp"
@@ -11,6 +14,22 @@ namespace {
 constexpr Identity kIdentity{1, 500, 0x000100};
 constexpr std::uint16_t kPeerBoot = 600;
 constexpr int kRamp = 100;
+
+Heartbeat heartbeat(NodeState state, std::uint16_t errors = 0, std::uint16_t boot = kPeerBoot) {
+  Heartbeat beat;
+  beat.boot = boot;
+  beat.state = state;
+  beat.errors = errors;
+  return beat;
+}
+
+/// The last message of its kind that the node sent.
+template <class M>
+M last_of(const bus::ScriptedNode& peer) {
+  M message;
+  EXPECT_TRUE(peer.last(message));
+  return message;
+}
 
 /// A base that executes the commands of a controller that the test plays.
 class BaseAlone : public testing::Test {
@@ -35,12 +54,7 @@ class BaseAlone : public testing::Test {
   void pass() {
     ++now_;
     peer_.poll(now_);
-    if (beats_ && now_ % 100 == 0) {
-      Heartbeat beat;
-      beat.boot = kPeerBoot;
-      beat.state = peer_state_;
-      peer_.say(beat);
-    }
+    if (beats_ && now_ % 100 == 0) peer_.say(heartbeat(peer_state_));
     base_.poll(now_);
     if (now_ % 10 != 0) return;
     speeds_ = base_.control();
@@ -61,8 +75,7 @@ class BaseAlone : public testing::Test {
     base_.give(Order::start, {{}, {{}, 100_mm}}, SyncMode::real_time);
     pass();
     pass();
-    MissionOrder order;
-    ASSERT_TRUE(peer_.last(order));
+    const auto order = last_of<MissionOrder>(peer_);
     peer_.say(MissionReply{MissionStatus::accepted, order.mission});
     pass();
     ASSERT_EQ(base_.order_state(), OrderState::accepted);
@@ -144,19 +157,15 @@ TEST_F(BaseAlone, LearnsTheRulesOfThisLifeOfItsPeer) {
   EXPECT_EQ(base_.peer_rules(), 0xB02921C5U);
   EXPECT_EQ(base_.state(), NodeState::ready);
   beats_ = false;
-  Heartbeat again;
-  again.boot = kPeerBoot + 1;
-  peer_.say(again);
+  peer_.say(heartbeat({}, 0, kPeerBoot + 1));
   pass(5);
   EXPECT_EQ(base_.peer_rules(), 0U);
 }
 
 TEST_F(BaseAlone, InfoOfAnEarlierLifeDoesNotCount) {
   beats_ = false;
-  Heartbeat beat;
-  beat.boot = kPeerBoot;
   peer_.say(Info{InfoPart::table_hash, kPeerBoot - 1, kTableHash});
-  peer_.say(beat);
+  peer_.say(heartbeat({}));
   peer_.say(Info{InfoPart::table_hash, kPeerBoot - 1, kTableHash});
   pass(5);
   EXPECT_EQ(base_.state(), NodeState::waiting);
@@ -230,9 +239,7 @@ TEST_F(BaseAlone, ThePeersSafeStopStops) {
 TEST_F(BaseAlone, ANewBootNumberStopsAndAsksForANewHandshake) {
   start();
   beats_ = false;
-  Heartbeat beat;
-  beat.boot = kPeerBoot + 1;
-  peer_.say(beat);
+  peer_.say(heartbeat({}, 0, kPeerBoot + 1));
   pass();
   EXPECT_EQ(base_.state(), NodeState::safe_stop);
   EXPECT_NE(base_.errors() & Error::peer_restarted, 0);
@@ -255,8 +262,7 @@ TEST_F(BaseAlone, AnOrderEndsASafeStop) {
   EXPECT_GE(ms, 190) << "not before the wheels stand";
   pass(200);
   EXPECT_GE(peer_.heard<MissionOrder>(), 3 * 7) << "repeated until it is answered";
-  MissionOrder order;
-  ASSERT_TRUE(peer_.last(order));
+  const auto order = last_of<MissionOrder>(peer_);
   EXPECT_EQ(order.order, Order::resume);
   answers_ = true;
   peer_.say(MissionReply{MissionStatus::accepted, order.mission});
@@ -356,8 +362,7 @@ TEST_F(BaseAlone, AReplyToTheOperatorAnswersNothing) {
   base_.give(Order::start, {{}, {{}, 100_mm}}, SyncMode::real_time);
   base_.request({ParamAction::read, 4, 0});
   pass(2);
-  MissionOrder order;
-  ASSERT_TRUE(peer_.last(order));
+  const auto order = last_of<MissionOrder>(peer_);
   peer_.say(MissionReply{MissionStatus::accepted, order.mission, 1});
   peer_.say(ParamReply{ParamStatus::ok, 4, 1, 1});
   pass(2);
@@ -480,11 +485,7 @@ TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
   for (const std::uint16_t error : {Error::duplicate_node, Error::bus_off_latched}) {
     if (base_.state() == NodeState::waiting) start();
     beats_ = false;
-    Heartbeat beat;
-    beat.boot = kPeerBoot;
-    beat.state = NodeState::safe_stop;
-    beat.errors = error;
-    peer_.say(beat);
+    peer_.say(heartbeat(NodeState::safe_stop, error));
     pass();
     EXPECT_EQ(base_.permanent_errors(), error);
     expect_braking();
@@ -493,9 +494,7 @@ TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
     pass(200);
     EXPECT_EQ(base_.order_state(), OrderState::refused);
     EXPECT_EQ(peer_.heard<MissionOrder>(), 0);
-    beat.errors = 0;
-    beat.state = NodeState::ready;
-    peer_.say(beat);
+    peer_.say(heartbeat(NodeState::ready));
     pass(2);
     EXPECT_EQ(base_.permanent_errors(), 0);
   }
@@ -506,13 +505,11 @@ TEST_F(BaseAlone, HeartbeatsCarryStateAndErrorsAtOnce) {
   answers_ = false;
   until_stopped();
   pass(2);
-  Heartbeat beat;
-  ASSERT_TRUE(peer_.last(beat));
+  const auto beat = last_of<Heartbeat>(peer_);
   EXPECT_EQ(beat.state, NodeState::safe_stop);
   EXPECT_EQ(beat.errors, Error::command_late);
   EXPECT_EQ(beat.boot, kIdentity.boot);
-  FaultReport fault;
-  ASSERT_TRUE(peer_.last(fault));
+  const auto fault = last_of<FaultReport>(peer_);
   EXPECT_EQ(fault.severity, Severity::latched);
   EXPECT_EQ(fault.errors, Error::command_late);
   EXPECT_EQ(fault.stops, 1U);
@@ -570,12 +567,7 @@ class ControllerAlone : public testing::Test {
   }
   void pass() {
     ++now_;
-    if (beats_ && now_ % 100 == 0) {
-      Heartbeat beat;
-      beat.boot = kPeerBoot;
-      beat.state = NodeState::running;
-      peer_.say(beat);
-    }
+    if (beats_ && now_ % 100 == 0) peer_.say(heartbeat(NodeState::running));
     if (now_ % 10 == 0) send_set(++tick_);
     peer_.poll(now_);
     node_.poll(now_);
@@ -593,34 +585,46 @@ class ControllerAlone : public testing::Test {
   void pass(int ms) {
     for (int i = 0; i < ms; ++i) pass();
   }
-  void order(Order what, const Mission& mission = {{}, {{1_m, 0_m}, 100_mm}}) {
+  MissionStatus order(Order what, const Mission& mission = {{}, {{1_m, 0_m}, 100_mm}}) {
     const MissionValues values = values_of(mission);
     for (int i = 0; i < kMissionValues; ++i) {
       peer_.say(MissionValue{static_cast<MissionPart>(i + 1), mission_, values.of[i]});
     }
     peer_.say(MissionOrder{MissionPart::order, mission_, what, digest_of(values)});
     pass(2);
+    return replied();
+  }
+  /// As a mission of its own.
+  MissionStatus next(Order what, const Mission& mission = {{}, {{1_m, 0_m}, 100_mm}}) {
+    ++mission_;
+    return order(what, mission);
   }
   MissionStatus replied() {
-    MissionReply reply;
-    EXPECT_TRUE(peer_.last(reply));
+    const auto reply = last_of<MissionReply>(peer_);
     EXPECT_EQ(reply.mission, mission_);
     return reply.status;
   }
   void start() {
-    peer_.greet(kPeerBoot);
-    pass(2);
+    greet();
     ASSERT_EQ(node_.state(), NodeState::ready);
-    order(Order::start);
-    ASSERT_EQ(replied(), MissionStatus::accepted);
+    ASSERT_EQ(order(Order::start), MissionStatus::accepted);
     pass(50);
     ASSERT_EQ(node_.state(), NodeState::running);
     ASSERT_GE(steps_, 4);
     while (now_ % 10 != 1) pass();
   }
+  void greet() {
+    peer_.greet(kPeerBoot);
+    pass(2);
+  }
+  /// Milliseconds until it no longer runs, from `ms` on; at most 500.
+  int until_stopped(int ms = 0) {
+    for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
+    return ms;
+  }
+  void send_all(bool sends) { std::fill(std::begin(sends_), std::end(sends_), sends); }
   DriveMode last_mode() {
-    WheelCommand command;
-    EXPECT_TRUE(peer_.last(command));
+    const auto command = last_of<WheelCommand>(peer_);
     return command.mode;
   }
 };
@@ -630,13 +634,11 @@ TEST_F(ControllerAlone, StepsOnceOnEachCompleteSetAndNamesIt) {
   const int before = steps_;
   pass(100);
   EXPECT_EQ(steps_, before + 10);
-  WheelCommand command;
-  ASSERT_TRUE(peer_.last(command));
+  const auto command = last_of<WheelCommand>(peer_);
   EXPECT_EQ(command.mode, DriveMode::drive);
   EXPECT_EQ(command.tick, static_cast<std::uint16_t>(tick_));
   EXPECT_EQ(command.speeds.left, 1000);
-  NavStatus status;
-  ASSERT_TRUE(peer_.last(status));
+  const auto status = last_of<NavStatus>(peer_);
   EXPECT_EQ(status.tick, command.tick);
 }
 
@@ -699,8 +701,7 @@ TEST_F(ControllerAlone, RepeatsTheAnswerToAFixWithThatOfItsTick) {
   node_.poll(now_);
   peer_.poll(now_);
   EXPECT_EQ(peer_.heard<FixReply>(), 2);
-  FixReply reply;
-  ASSERT_TRUE(peer_.last(reply));
+  const auto reply = last_of<FixReply>(peer_);
   EXPECT_EQ(reply.status, FixStatus::refused);
   EXPECT_EQ(reply.tick, static_cast<std::uint16_t>(tick_));
   EXPECT_EQ(reply.jumps, 3);
@@ -722,15 +723,12 @@ TEST_F(ControllerAlone, AMissingRangeBrakesAfter30MillisecondsAndLatchesAfter100
     EXPECT_LE(ms, 32);
     EXPECT_EQ(node_.state(), NodeState::running);
     EXPECT_TRUE(node_.braked());
-    for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
-    EXPECT_EQ(ms, 101);
+    EXPECT_EQ(until_stopped(ms), 101);
     EXPECT_NE(node_.errors() & Error::range_late, 0);
     sends_[beam] = true;
     pass(500);
     EXPECT_EQ(node_.state(), NodeState::safe_stop);
-    ++mission_;
-    order(Order::resume);
-    EXPECT_EQ(replied(), MissionStatus::accepted);
+    EXPECT_EQ(next(Order::resume), MissionStatus::accepted);
     EXPECT_EQ(node_.state(), NodeState::running);
     pass(50);
   }
@@ -752,9 +750,7 @@ TEST_F(ControllerAlone, MissingCountsStopAfter50Milliseconds) {
   start();
   while (now_ % 10 != 0) pass();
   sends_[3] = false;
-  int ms = 0;
-  for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
-  EXPECT_EQ(ms, 51);
+  EXPECT_EQ(until_stopped(), 51);
   EXPECT_NE(node_.errors() & Error::odometry_late, 0);
   pass(20);
   EXPECT_EQ(last_mode(), DriveMode::stop);
@@ -762,10 +758,8 @@ TEST_F(ControllerAlone, MissingCountsStopAfter50Milliseconds) {
 
 TEST_F(ControllerAlone, ASilentBaseStopsIt) {
   start();
-  for (bool& sends : sends_) sends = false;
-  int ms = 0;
-  for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
-  EXPECT_LE(ms, 52);
+  send_all(false);
+  EXPECT_LE(until_stopped(), 52);
   beats_ = false;
   pass(400);
   EXPECT_FALSE(node_.matched());
@@ -809,8 +803,7 @@ TEST_F(ControllerAlone, PublishesItsTrustEvery50TicksAtEveryChangeAndAtTheEnd) {
   node_.poll(now_);
   peer_.poll(now_);
   EXPECT_EQ(peer_.heard<RangeTrustReport>(), 2);
-  RangeTrustReport last;
-  ASSERT_TRUE(peer_.last(last));
+  const auto last = last_of<RangeTrustReport>(peer_);
   EXPECT_EQ(last.level, RangeLevel::doubtful);
 }
 
@@ -830,8 +823,7 @@ TEST_F(ControllerAlone, PublishesItsSigmaEvery50TicksAndAtTheEnd) {
   node_.poll(now_);
   peer_.poll(now_);
   EXPECT_EQ(peer_.heard<PoseSigmaReport>(), 1);
-  PoseSigmaReport last;
-  ASSERT_TRUE(peer_.last(last));
+  const auto last = last_of<PoseSigmaReport>(peer_);
   EXPECT_EQ(last.across, 20);
 }
 
@@ -850,20 +842,19 @@ TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
   EXPECT_EQ(steps_, before);
   EXPECT_EQ(peer_.heard<WheelCommand>(), 1);
   EXPECT_EQ(peer_.heard<NavStatus>(), 1);
-  WheelCommand command;
-  ASSERT_TRUE(peer_.last(command));
+  const auto command = last_of<WheelCommand>(peer_);
   EXPECT_EQ(command.tick, static_cast<std::uint16_t>(tick_));
 }
 
 TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
   sync_mode_ = SyncMode::lockstep;
   start();
-  for (bool& sends : sends_) sends = false;
+  send_all(false);
   beats_ = false;
   pass(5000);
   EXPECT_EQ(node_.health().stops, 0U);
   EXPECT_EQ(node_.state(), NodeState::waiting);
-  for (bool& sends : sends_) sends = true;
+  send_all(true);
   beats_ = true;
   tick_ = tick_ - 500;  // the ticks did not advance
   peer_.greet(kPeerBoot, NodeState::running);
@@ -874,17 +865,15 @@ TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
 }
 
 TEST_F(ControllerAlone, ABaseThatIsLostBeforeTheFirstStepStopsNothing) {
-  for (bool& sends : sends_) sends = false;
-  peer_.greet(kPeerBoot);
-  pass(2);
-  order(Order::start);
-  EXPECT_EQ(replied(), MissionStatus::accepted);
+  send_all(false);
+  greet();
+  EXPECT_EQ(order(Order::start), MissionStatus::accepted);
   beats_ = false;
   pass(1000);
   EXPECT_EQ(node_.state(), NodeState::waiting);
   EXPECT_EQ(node_.health().stops, 0U);
   beats_ = true;
-  for (bool& sends : sends_) sends = true;
+  send_all(true);
   pass(120);
   EXPECT_EQ(node_.state(), NodeState::running);
   EXPECT_GT(steps_, 0);
@@ -895,33 +884,24 @@ TEST_F(ControllerAlone, ABaseThatIsLostBeforeTheFirstStepStopsNothing) {
 }
 
 TEST_F(ControllerAlone, AnOrderNeedsAllItsParts) {
-  peer_.greet(kPeerBoot);
-  pass(2);
+  greet();
   peer_.say(MissionOrder{MissionPart::order, mission_, Order::start, 0});
   pass(2);
   EXPECT_EQ(replied(), MissionStatus::incomplete);
   EXPECT_EQ(node_.state(), NodeState::ready);
-  order(Order::resume);
-  EXPECT_EQ(replied(), MissionStatus::unknown);
-  ++mission_;
-  order(Order::start);
-  EXPECT_EQ(replied(), MissionStatus::accepted);
+  EXPECT_EQ(order(Order::resume), MissionStatus::unknown);
+  EXPECT_EQ(next(Order::start), MissionStatus::accepted);
 }
 
 TEST_F(ControllerAlone, OrdersToCalibrateNeedOneThatCalibrates) {
-  peer_.greet(kPeerBoot);
-  pass(2);
+  greet();
   for (const Order what : {Order::spin, Order::straight, Order::tape, Order::measured}) {
-    ++mission_;
-    order(what);
-    EXPECT_EQ(replied(), MissionStatus::unsupported);
+    EXPECT_EQ(next(what), MissionStatus::unsupported);
     EXPECT_EQ(node_.state(), NodeState::ready);
   }
   node_.accept_calibrations();
   const auto so_far = [&](Order what, Length length) {
-    ++mission_;
-    order(what, {{{2_m, 1_m}, {}}, {{2_m, 1_m - length}, 100_mm}});
-    return replied();
+    return next(what, {{{2_m, 1_m}, {}}, {{2_m, 1_m - length}, 100_mm}});
   };
   for (const Order what : {Order::straight, Order::tape, Order::measured}) {
     EXPECT_EQ(so_far(what, 0_mm), MissionStatus::out_of_range);
@@ -929,8 +909,7 @@ TEST_F(ControllerAlone, OrdersToCalibrateNeedOneThatCalibrates) {
     EXPECT_EQ(node_.state(), NodeState::ready);
     EXPECT_EQ(so_far(what, 500_mm), MissionStatus::accepted);
     EXPECT_EQ(node_.state(), what == Order::measured ? NodeState::ready : NodeState::running);
-    ++mission_;
-    order(Order::cancel);
+    next(Order::cancel);
   }
 }
 
@@ -941,24 +920,19 @@ TEST_F(ControllerAlone, EveryOrderInEveryStateIsAnsweredByName) {
   const auto try_all = [&](NodeState state, MissionStatus resume, MissionStatus others) {
     for (const Order what : kEvery) {
       ASSERT_EQ(node_.state(), state) << kOrderWords[static_cast<int>(what)];
-      ++mission_;
-      order(what);
+      next(what);
       const MissionStatus expected = what == Order::resume ? resume
                                      : !drives(what)       ? MissionStatus::accepted
                                                            : others;
       EXPECT_EQ(replied(), expected) << kOrderWords[static_cast<int>(what)];
       if (state == NodeState::e_stopped || node_.state() == state) continue;
       const bool runs = state == NodeState::running;
-      ++mission_;
-      order(runs ? Order::spin : Order::cancel);
-      EXPECT_EQ(replied(), MissionStatus::accepted);
+      EXPECT_EQ(next(runs ? Order::spin : Order::cancel), MissionStatus::accepted);
     }
   };
-  peer_.greet(kPeerBoot);
-  pass(2);
+  greet();
   try_all(NodeState::ready, MissionStatus::unknown, MissionStatus::accepted);
-  ++mission_;
-  order(Order::spin);
+  next(Order::spin);
   try_all(NodeState::running, MissionStatus::accepted, MissionStatus::accepted);
   peer_.send({0x010, false, false, 1, {0}});
   pass(2);
@@ -972,19 +946,15 @@ TEST_F(ControllerAlone, AnEStopRefusesOrdersUntilItIsCleared) {
   EXPECT_EQ(node_.state(), NodeState::e_stopped);
   pass(20);
   EXPECT_EQ(last_mode(), DriveMode::stop);
-  ++mission_;
-  order(Order::start);
-  EXPECT_EQ(replied(), MissionStatus::refused);
+  EXPECT_EQ(next(Order::start), MissionStatus::refused);
   peer_.say(EStop{kClearCommand});
   pass(2);
   EXPECT_EQ(node_.state(), NodeState::ready);
-  order(Order::start);
-  EXPECT_EQ(replied(), MissionStatus::accepted);
+  EXPECT_EQ(order(Order::start), MissionStatus::accepted);
 }
 
 TEST_F(ControllerAlone, RefusesAStartOrAGoalThatIsTooFarOutByName) {
-  peer_.greet(kPeerBoot);
-  pass(2);
+  greet();
   const Length beyond = kPlaceLimit + micrometres(1);
   const planning::Goal goal{{1_m, 0_m}, 100_mm};
   const Mission missions[] = {{{{beyond, 0_m}, {}}, goal},
@@ -992,14 +962,11 @@ TEST_F(ControllerAlone, RefusesAStartOrAGoalThatIsTooFarOutByName) {
                               {{}, {{-beyond, 0_m}, 100_mm}},
                               {{}, {{0_m, Length::from_raw(INT32_MAX)}, 100_mm}}};
   for (const Mission& mission : missions) {
-    ++mission_;
-    order(Order::start, mission);
-    EXPECT_EQ(replied(), MissionStatus::out_of_range);
+    EXPECT_EQ(next(Order::start, mission), MissionStatus::out_of_range);
     EXPECT_EQ(node_.state(), NodeState::ready);
   }
-  ++mission_;
-  order(Order::start, {{{kPlaceLimit, -kPlaceLimit}, {}}, {{-kPlaceLimit, kPlaceLimit}, 100_mm}});
-  EXPECT_EQ(replied(), MissionStatus::accepted);
+  EXPECT_EQ(next(Order::start, {{{kPlaceLimit, -kPlaceLimit}, {}}, {{-kPlaceLimit, kPlaceLimit}, 100_mm}}),
+            MissionStatus::accepted);
 }
 
 TEST_F(ControllerAlone, ANewBaseForgetsTheMission) {
@@ -1011,18 +978,15 @@ TEST_F(ControllerAlone, ANewBaseForgetsTheMission) {
   const int before = steps_;
   pass(30);
   EXPECT_EQ(steps_, before);
-  order(Order::start);
-  EXPECT_EQ(replied(), MissionStatus::accepted);
+  EXPECT_EQ(order(Order::start), MissionStatus::accepted);
 }
 
 TEST_F(ControllerAlone, ParametersAreReadCheckedAndCommitted) {
-  peer_.greet(kPeerBoot);
-  pass(2);
+  greet();
   const auto ask = [&](const ParamRequest& request) {
     peer_.say(request);
     pass(2);
-    ParamReply reply;
-    EXPECT_TRUE(peer_.last(reply));
+    const auto reply = last_of<ParamReply>(peer_);
     EXPECT_EQ(reply.index, request.index);
     return reply;
   };

@@ -218,18 +218,5 @@ class Slips(Case):
         self.assertEqual(run("hil", NOTHING, "--drop", "0.5", "--json").returncode, 0)
 
 
-class Figures(Case):
-    def test_are_drawn_wherever_the_command_is_called(self):
-        """Checks only the first run; another test checks all, because they take long."""
-        process = subprocess.Popen([whisker.binary, "figures", "."], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        lines = []
-        while len(lines) < 8 and (line := process.stdout.readline()):
-            lines.append(line)
-        process.kill()
-        complaint = process.communicate()[1]
-        self.assertEqual((len(lines), complaint), (8, ""))
-        self.assertEqual((self.folder / "figure8.svg").read_bytes(), (ROOT / "docs/figures/figure8.svg").read_bytes())
-
-
 if __name__ == "__main__":
     whisker.main()

@@ -393,10 +393,11 @@ class Command(Case):
 class Documentation(Case):
     def test_the_page_shows_what_the_command_prints(self):
         page = (ROOT / "docs/rules.md").read_text()
-        for name in NAMES:
-            done = whisker.whisker("rules", "compile", f"host/rules/examples/{name}", cwd=ROOT)
-            header = f"{name.partition('.')[0]}.h"
-            self.assertIn(f"$ whisker rules compile host/rules/examples/{name} --header {header}\n{done.stdout}header: {header}\n```\n", page)
+        told = {name: whisker.whisker("rules", "compile", f"host/rules/examples/{name}", cwd=ROOT).stdout for name in NAMES}
+        self.assertIn(f"$ whisker rules compile host/rules/examples/tip.fis --header tip.h\n{told['tip.fis']}header: tip.h\n```\n", page)
+        self.assertRegex(told["thesis.toml"], r"\noutput SA: .*\n  antisymmetric in R\noutput SD: .*\n  symmetric in R\n\Z")
+        warned = r"\nwarning: 'force' rises with 'angle', but falls by up to 1.66 % of the span, at angle = 15, rate = 24.1406\n"
+        self.assertRegex(told["pendulum.fll"], warned)
 
 
 class Malformed(Case):

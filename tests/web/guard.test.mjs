@@ -1,8 +1,8 @@
 // The page of a drive of the guard: what was asked, what was granted, and why.
 import assert from 'node:assert/strict';
 import {describe, test} from 'node:test';
-import {accessibilityFaults, drawn, PHONE, pictureOf, seek, tickOf} from './browser.mjs';
-import {inBrowser} from './in_browser.mjs';
+import {drawn, pictureOf, seek, tickOf} from './browser.mjs';
+import {everybodyCanRead, inBrowser} from './in_browser.mjs';
 import {U_TRAP, whisker, withoutOrigin} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
@@ -261,19 +261,5 @@ describe('the page of a drive of the guard', () => {
     assert.deepEqual(complaints, []);
   });
 
-  for (const [name, options] of Object.entries({
-    light: {},
-    dark: {colorScheme: 'dark'},
-    phone: {viewport: PHONE, touch: true},
-  })) {
-    test(`${name}: can be read by everybody, and fits`, async () => {
-      const {page, complaints} = await open('sloppy', '#t=32', options);
-      assert.deepEqual(await accessibilityFaults(page), []);
-      const wide = await page.evaluate(
-        () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-      );
-      assert.equal(wide, 0, 'it scrolls sideways');
-      assert.deepEqual(complaints, []);
-    });
-  }
+  everybodyCanRead((options) => open('sloppy', '#t=32', options));
 });

@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {describe, test} from 'node:test';
-import {accessibilityFaults, DESKTOP, drawn, PHONE, pictureOf, seek} from './browser.mjs';
-import {inBrowser} from './in_browser.mjs';
+import {drawn, pictureOf, seek} from './browser.mjs';
+import {everybodyCanRead, inBrowser} from './in_browser.mjs';
 import {whisker} from './scenarios.mjs';
 
 const KEYS = ['map: seen free', 'suspect', 'occupied', 'planned path'];
@@ -161,14 +161,5 @@ describe('the map on the replay page', () => {
     assert.ok(count('map_word') < 20 * count('map_tick'), `${count('map_word')} changes`);
   });
 
-  for (const [colorScheme, viewport] of [
-    ['light', PHONE],
-    ['dark', DESKTOP],
-  ]) {
-    test(`axe finds no fault: ${colorScheme}, ${viewport.width} px`, async () => {
-      const {page} = await open('map', '#t=40', {colorScheme, viewport});
-      assert.deepEqual(await accessibilityFaults(page), []);
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
-    });
-  }
+  everybodyCanRead((options) => open('map', '#t=40', options));
 });

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {describe, test} from 'node:test';
-import {accessibilityFaults, DESKTOP, drawn, PHONE, pictureOf, seek, tickOf} from './browser.mjs';
-import {inBrowser} from './in_browser.mjs';
+import {drawn, PHONE, pictureOf, seek, tickOf} from './browser.mjs';
+import {everybodyCanRead, inBrowser} from './in_browser.mjs';
 import {ROOT, U_TRAP, whisker} from './scenarios.mjs';
 
 describe('the replay page', () => {
@@ -438,15 +438,7 @@ describe('the replay page', () => {
     });
   }
 
-  for (const [colorScheme, viewport] of [
-    ['light', PHONE],
-    ['dark', DESKTOP],
-  ]) {
-    test(`axe finds no fault: ${colorScheme}, ${viewport.width} px`, async () => {
-      const {page} = await open('#t=10', {colorScheme, viewport});
-      assert.deepEqual(await accessibilityFaults(page), []);
-    });
-  }
+  everybodyCanRead((options) => open('#t=10', options));
 
   test('a moving obstacle is where the simulator has it', async () => {
     folder.run('mover', join(ROOT, 'tests/cli/scenarios/crossing_mover.toml'));

@@ -1,8 +1,7 @@
 // The page of a rule base.
 import assert from 'node:assert/strict';
 import {describe, test} from 'node:test';
-import {accessibilityFaults, PHONE} from './browser.mjs';
-import {inBrowser} from './in_browser.mjs';
+import {everybodyCanRead, inBrowser} from './in_browser.mjs';
 import {ROOT, U_TRAP, whisker} from './scenarios.mjs';
 
 const NAMES = ['thesis.toml', 'tip.fis', 'pendulum.fll', 'fan.fcl', 'follower.fis'];
@@ -145,14 +144,10 @@ describe('the page of a rule base', () => {
     assert.deepEqual(complaints, []);
   });
 
-  test('is accessible, in the dark and on a phone, too', async () => {
-    for (const options of [{}, {colorScheme: 'dark'}, {viewport: PHONE}]) {
-      const {page} = await openPage(folder.url('thesis.toml.html'), options);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wide <= 0, `${wide} px too wide`);
-      const {width} = await page.locator('#inputs input').first().boundingBox();
-      assert.ok(width >= 150, `a slider of ${width} px`);
-      assert.deepEqual(await accessibilityFaults(page), []);
-    }
+  everybodyCanRead(async (options) => {
+    const opened = await openPage(folder.url('thesis.toml.html'), options);
+    const {width} = await opened.page.locator('#inputs input').first().boundingBox();
+    assert.ok(width >= 150, `a slider of ${width} px`);
+    return opened;
   });
 });

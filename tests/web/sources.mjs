@@ -4,7 +4,7 @@ import {require} from './browser.mjs';
 import {ROOT} from './scenarios.mjs';
 
 async function module(name) {
-  const {outputFiles} = await require('esbuild').build({
+  const {outputFiles} = await require('esbuild-wasm').build({
     entryPoints: [join(ROOT, 'host/lab/web/src', name)],
     bundle: true,
     write: false,

@@ -10,7 +10,7 @@
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/goal_planner.hpp"
-#include "host/lab/baselines/leave_rule.hpp"
+#include "host/lab/baselines/leave_rules.hpp"
 
 namespace whisker::baselines {
 

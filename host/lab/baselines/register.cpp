@@ -4,11 +4,9 @@
 #include <memory>
 
 #include "host/harness/run/planners.hpp"
-#include "host/lab/baselines/bug2.hpp"
 #include "host/lab/baselines/bug_planner.hpp"
 #include "host/lab/baselines/deflection_laws.hpp"
-#include "host/lab/baselines/distbug.hpp"
-#include "host/lab/baselines/wall_follower.hpp"
+#include "host/lab/baselines/leave_rules.hpp"
 
 namespace whisker::baselines {
 namespace {

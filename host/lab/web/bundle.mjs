@@ -1,10 +1,14 @@
 // What both pages are bundled with: build.mjs and playground.mjs.
 import {readFile} from 'node:fs/promises';
-import {build} from 'esbuild';
+import {build} from 'esbuild-wasm';
 
 const here = (path) => new URL(path, import.meta.url);
 // Dark colours are written once; the system's choice and the reader's button both use them.
 const DARK = /:root\[data-theme='dark'\] \{([^}]*)\}/;
+
+const BLOCKS =
+  'html|head|meta|title|link|body|header|main|section|div|h1|h2|h3|p|nav|dl|dt|dd|ul|li|table|thead|tbody|tr|th|td|' +
+  'figure|figcaption|dialog|noscript|script|style|form|fieldset|details|summary';
 
 async function bundled(options) {
   const result = await build({
@@ -28,6 +32,16 @@ async function style(sheets) {
   return bundled({stdin: {contents, loader: 'css'}});
 }
 
+/** Without the line ends beside elements that begin lines of their own; others become blanks. */
+function compact(html) {
+  return html
+    .replace(/\s*\n\s*/g, '\n')
+    .replace(new RegExp(`(</?(?:${BLOCKS})\\b[^>]*>)\n`, 'g'), '$1')
+    .replace(new RegExp(`\n(?=</?(?:${BLOCKS})\\b)`, 'g'), '')
+    .replaceAll('\n', ' ')
+    .concat('\n');
+}
+
 /**
  * The page of src/HTML with everything in its place: its style sheets, its script and what else it asks for. It begins with the
  * notices of what others wrote.
@@ -44,7 +58,7 @@ export async function bundledPage({html, sheets, entry, notices = [], more = {}}
   // Functions: a replacement string would give $ a meaning.
   const page = Object.entries(parts).reduce(
     (whole, [name, part]) => whole.replace(`<!--${name}-->`, () => part),
-    text.replace(/\n\s*/g, '\n'),
+    compact(text),
   );
   const notice = kept
     .map((licence, i) => `<!--\n${notices[i].split('/')[1]}: ${licence.trim()}\n-->\n`)
