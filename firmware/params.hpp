@@ -92,7 +92,7 @@ struct BoundaryParams {
   Angle age_turn = 340_deg;          ///< or after one to two of these turns, whichever comes first
   Speed mover_speed = 300_mm_per_s;  ///< assumed speed of moving objects; 0: nothing moves
   Length length_budget = 400_m;      ///< travel after which it gives up; also for the map planner
-  Fitted bend = Fitted::no;          ///< SA of the response table bends the course; also for the map planner
+  Fitted bend = Fitted::yes;         ///< SA of the response table bends the course; also for the map planner
 };
 
 struct MotionParams {

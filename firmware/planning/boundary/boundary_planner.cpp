@@ -38,7 +38,7 @@ void BoundaryPlanner::advance(const View& view) noexcept {
   behaviours_.progress.move(view, behaviours_.params);
   loop_.move(view);
   follower_.move(view);
-  approach_.observe(view);
+  approach_.observe(view, target_, phase_ == Phase::approach, decision_);
   act(view);
   if (gives_way(view)) {
     otherwise_ = decision_.why;
