@@ -18,6 +18,12 @@ constexpr int32_t distance_of(int32_t x, int32_t y) noexcept {
   return longer < diagonal ? diagonal : longer;
 }
 
+/// Half the chord of a circle at this distance from its centre; zero outside.
+int32_t chord(int32_t radius, int32_t beside) noexcept {
+  const int32_t squared = (radius - beside) * (radius + beside);
+  return squared > 0 ? static_cast<int32_t>(square_root_32(static_cast<uint32_t>(squared))) : 0;
+}
+
 /// Directions from the course; 2^-14: ahead, 30 and 60 degrees to the left, the same to the right.
 constexpr int kWays = 5;
 constexpr struct {
@@ -98,9 +104,7 @@ Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon, Length radiu
         const int32_t across = (y * kWay[i].x - x * kWay[i].y) / kOneQ14;
         const int32_t beside = across < 0 ? -across : across;
         if (along <= abeam() || beside >= wide + kCellCover || along >= free[i] + wide) continue;
-        // The disc as an octagon around it.
-        const int32_t before = least(wide, wide * kRootOfTwo / kOneQ7 - beside);
-        const int32_t rest = before < 0 ? along : along - before;
+        const int32_t rest = along - chord(wide, beside);
         free[i] = least(free[i], rest < 0 ? 0 : rest);
       }
     }
