@@ -3,7 +3,7 @@
 namespace whisker {
 namespace {
 
-constexpr uint16_t kMostContradictions = 2 * RangeTrust::kOnePerMetre;
+constexpr uint16_t kMostContradictions = 5 * RangeTrust::kOnePerMetre;
 
 }  // namespace
 

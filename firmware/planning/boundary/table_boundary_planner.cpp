@@ -5,8 +5,10 @@
 namespace whisker::planning {
 namespace {
 
-// The look ahead is shorter than a step of the thesis planner, and repeated at every reading.
-constexpr Q14 kOfBaseTurn = Q14::ratio(1, 2);
+// Per unit of SA. The look ahead is shorter than a step of the thesis planner, and repeated at every reading;
+// where the ground may hold what no beam shows, distance is worth more than the way.
+constexpr Angle kBend = 4_deg;
+constexpr Angle kBendInDoubt = 8_deg;
 
 }  // namespace
 
@@ -16,7 +18,7 @@ Angle TableDeflection::deflect(const View& view, Angle course, const Params& par
       ground_inputs(perception::nearest(view.moving_scan), *view.local_grid, view.pose.at, course, params);
   decision.response = engine_(decision.inputs);
   if (params.boundary.bend == Fitted::no) return {};
-  return scaled(derived::kBaseTurn, kOfBaseTurn * decision.response.turn);
+  return scaled(view.doubts ? kBendInDoubt : kBend, decision.response.turn);
 }
 
 }  // namespace whisker::planning
