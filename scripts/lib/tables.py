@@ -15,9 +15,7 @@ from campaigns import CLASSES, ROBOTS, ROOT, Many, Section, campaign, cell, exam
 from campaigns import missions_of, summary, table, whisker
 
 PLANNERS = {
-    # With its rules, so that `fan` shows the same planner without.
-    "skirt": ("--planner", "skirt", "--rules", "default"),
-    "map": ("--planner", "map"),
+    **{name: ("--planner", name) for name in ("skirt", "map")},
     "map, 16 KB": ("--planner", "map", "--map-bytes", "16384"),
     **{name: ("--planner", name) for name in ("fan", "repulsion", "distbug", "bug2", "wall-follower", "thesis")},
 }

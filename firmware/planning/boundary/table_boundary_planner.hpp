@@ -7,8 +7,8 @@
 
 namespace whisker::planning {
 
-/// One look-up of the response table: SA x base angle bends the course, if BoundaryParams::bend asks for it,
-/// and SD sets the pace where clear ground is in doubt.
+/// One look-up of the response table: SA bends the course by some degrees per unit, if BoundaryParams::bend
+/// asks for it, and SD sets the pace where clear ground is in doubt.
 class TableDeflection final : public HeadingDeflection {
  public:
   explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}
