@@ -1,6 +1,11 @@
 #include "firmware/chassis.hpp"
 
 namespace whisker {
+namespace {
+
+constexpr uint16_t kMostContradictions = 5 * RangeTrust::kOnePerMetre;
+
+}  // namespace
 
 Chassis::Chassis(hal::Rangefinders& rangefinders, hal::Drive& drive, hal::Gyro* gyro, const Params& params,
                  localization::Estimate& estimate, Health& health) noexcept
@@ -15,6 +20,7 @@ void Chassis::configure() noexcept {
   localizer_.configure();
   perception_.configure(params_);
   warned_speed_.configure(params_);
+  pace_.configure(params_);
   supervisor_.configure();
 }
 
@@ -90,17 +96,30 @@ void Chassis::sense(hal::RangeReadings& readings) noexcept {
 
 void Chassis::observe(bool settled, Time settled_since, perception::Percept& out) noexcept {
   perception_.observe({pose(), last_tick_, settled, settled_since}, params_, out);
+  nearest_ = perception::nearest(out.moving_scan);
   supervisor_.health().ranges = perception_.trust();
   supervisor_.check_trust(perception_.trust().level);
 }
 
-planning::VelocityRequest Chassis::slowed(planning::VelocityRequest request) const noexcept {
+planning::VelocityRequest Chassis::slowed(planning::VelocityRequest request, Q14 step) noexcept {
   const bool slows = perception_.slows();
-  if (slows || perception_.doubts()) {
-    const Speed most = warned_speed_.most(request.turning, perception_.readings_err(), slows, params_);
-    request.forward = whisker::limit(request.forward, most);
+  const bool err = perception_.readings_err();
+  if (!slows && !perception_.doubts()) {
+    pace_.stand();
+    return request;
   }
+  const Speed floor = warned_speed_.most({}, err, slows, params_);
+  const bool paced = request.forward > Speed{} && !err && !slows && trusts_ground();
+  const Speed wanted = paced ? pace_.wanted(step, nearest_) : Speed{};
+  const Speed pace = pace_.follow(wanted, floor, elapsed_, params_);
+  if (pace <= floor) pace_.stand();
+  const Speed most = warned_speed_.most(request.turning, err, slows, params_);
+  request.forward = whisker::limit(request.forward, max(most, pace - abs(request.turning)));
   return request;
+}
+
+bool Chassis::trusts_ground() const noexcept {
+  return !perception_.local_grid().doubting() && perception_.trust().contradictions < kMostContradictions;
 }
 
 WheelPair Chassis::limit(const planning::VelocityRequest& request) noexcept {

@@ -9,6 +9,7 @@
 #include "firmware/params.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/manoeuvre.hpp"
+#include "firmware/safety/pace.hpp"
 #include "firmware/safety/speed_limiter.hpp"
 #include "firmware/safety/supervisor.hpp"
 #include "firmware/safety/warned_speed.hpp"
@@ -66,8 +67,9 @@ class Chassis {
   bool may_drive(bool counted) const noexcept {
     return counted && sees() && !supervisor_.faulted() && !supervisor_.refused();
   }
-  /// The request at the pace that the readings allow.
-  planning::VelocityRequest slowed(planning::VelocityRequest request) const noexcept;
+  /// The request at the pace that the readings allow. `step`: SD of the response table for the ground as it
+  /// is now; zero: no table sets a pace.
+  planning::VelocityRequest slowed(planning::VelocityRequest request, Q14 step) noexcept;
   WheelPair limit(const planning::VelocityRequest& request) noexcept;
   /// Back over ground that the body has covered just before, unchecked.
   WheelPair retrace(const planning::VelocityRequest& request) noexcept;
@@ -93,8 +95,13 @@ class Chassis {
   const safety::Supervisor& supervisor() const noexcept { return supervisor_; }
   const safety::SpeedLimiter& limiter() const noexcept { return limiter_; }
   const WheelState& wheels() const noexcept { return wheels_.state(); }
+  /// What SD allows straight ahead since slowed(), where it is more than the warned speed; zero: nothing.
+  Speed pace() const noexcept { return pace_.now(); }
 
  private:
+  /// Nothing moves, and the readings hardly contradict each other: what no beam shows is not near.
+  bool trusts_ground() const noexcept;
+
   hal::Rangefinders& rangefinders_;
   hal::Gyro* gyro_;
   const Params& params_;
@@ -109,6 +116,8 @@ class Chassis {
   control::WheelDrive wheels_;
   safety::SpeedLimiter limiter_;
   safety::WarnedSpeed warned_speed_;
+  safety::Pace pace_;
+  Length nearest_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

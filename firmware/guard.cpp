@@ -133,7 +133,7 @@ WheelPair Guard::limit_speed(bool counted) noexcept {
   if (assists()) wanted = assist_.step(asked, fastest_on_the_spot_, pose, grid, params_);
   planning::VelocityRequest limited = wanted;
   if (!chassis_.may_drive(counted)) limited = {};
-  limited = chassis_.slowed(limited);
+  limited = chassis_.slowed(limited, assists() ? assist_.response().step : Q14{});
   const bool doubted = limited.forward != wanted.forward;
   // Without readings, nothing is seen yet.
   const bool seeing = vouched_ == Length{} && perception::usable(chassis_.perception().latest());

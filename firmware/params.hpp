@@ -68,7 +68,7 @@ enum class Fitted : int32_t { no, yes };
 struct BoundaryParams {
   Length guard_margin = 4_mm;    ///< clearance around the body that the guard keeps at every tick
   Length length_budget = 400_m;  ///< travel after which a mission gives up; see also derived::most_steps
-  Fitted bend = Fitted::no;      ///< SA of the response table bends the course; also for the map planner
+  Fitted bend = Fitted::yes;     ///< SA of the response table bends the course; also for the map planner
 };
 
 struct SafetyParams {

@@ -232,6 +232,7 @@ bool Robot::rests_for_gyro() noexcept {
 }
 
 WheelPair Robot::guard(const Pose& pose, bool counted) noexcept {
+  status_.pace = Speed{};
   const bool may_drive = chassis_.may_drive(counted) && resting_for_ == Duration{};
   const WheelPair speeds = granted(pose, may_drive);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
@@ -251,7 +252,9 @@ WheelPair Robot::granted(const Pose& pose, bool may_drive) noexcept {
   } else if (may_drive) {
     request = motion_.request(pose, chassis_.elapsed(), chassis_.limiter().held_for(), params_);
   }
-  return chassis_.limit(chassis_.slowed(request));
+  request = chassis_.slowed(request, status_.decision.response.step);
+  status_.pace = chassis_.pace();
+  return chassis_.limit(request);
 }
 
 void Robot::actuate(WheelPair speeds) noexcept {

@@ -24,6 +24,7 @@ struct Status : localization::Estimate {
   planning::Decision decision;
   perception::Echoes echoes;   ///< the latest single reading of each beam
   hal::WheelSpeeds command{};  ///< as sent to the drive
+  Speed pace;                  ///< that SD of the response table sets straight ahead; zero: it sets none
   uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
   Health health;
 };

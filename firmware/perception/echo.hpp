@@ -34,4 +34,10 @@ constexpr bool usable(const Echoes& e) noexcept {
   return usable(e.beam[0].validity) && usable(e.beam[1].validity) && usable(e.beam[2].validity);
 }
 
+/// The nearest thing that any beam shows; zero unless all are usable.
+constexpr Length nearest(const Echoes& e) noexcept {
+  if (!usable(e)) return {};
+  return min(e.beam[0].distance, min(e.beam[1].distance, e.beam[2].distance));
+}
+
 }  // namespace whisker::perception

@@ -19,6 +19,15 @@ struct Obstacles {
   Vec nearest_unknown;  ///< the nearest unknown cell, from the body
 };
 
+/// How far a disc can go straight until it meets a suspect cell.
+struct Ways {
+  Length left;  ///< the farther of the ways at 30 and 60 degrees
+  Length ahead;
+  Length right;
+  Length
+      nearest;  ///< to the nearest such cell that is not behind, or up to 8 % less; 60 m if none is in reach
+};
+
 /// Cells that count as obstacles.
 enum class Avoid : uint8_t {
   unclear,  ///< all that are not clear
@@ -88,6 +97,10 @@ class LocalGrid {
   /// Obstacles::suspect of along() alone, at a quarter of the cost.
   int32_t suspects_along(const Vec& from, Angle heading, Length length, Length radius,
                          int32_t enough) const noexcept;
+  /// The ways of a disc of this radius around `from`, each at most `horizon`. Cells that the disc
+  /// touches are met at their centres, and those abeam of a way are ignored. A mirrored world has mirrored
+  /// ways.
+  Ways ways(const Vec& from, Angle course, Length horizon, Length radius) const noexcept;
   /// Calls f with the centre of each cell that along() counts, from `from`.
   template <class F>
   void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f,

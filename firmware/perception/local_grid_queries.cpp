@@ -5,6 +5,31 @@ namespace {
 
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
+constexpr int32_t kOneQ14 = 1 << 14;
+
+constexpr int32_t kOneQ7 = 1 << 7;
+constexpr int32_t kRootOfTwo = 181;  // 2^-7
+constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
+
+/// Of a point in the first quadrant; up to 8 % too short.
+constexpr int32_t distance_of(int32_t x, int32_t y) noexcept {
+  const int32_t longer = x < y ? y : x;
+  const int32_t diagonal = (x + y) * (kRootOfTwo / 2) / kOneQ7;
+  return longer < diagonal ? diagonal : longer;
+}
+
+/// Half the chord of a circle at this distance from its centre; zero outside.
+int32_t chord(int32_t radius, int32_t beside) noexcept {
+  const int32_t squared = (radius - beside) * (radius + beside);
+  return squared > 0 ? static_cast<int32_t>(square_root_32(static_cast<uint32_t>(squared))) : 0;
+}
+
+/// Directions from the course; 2^-14: ahead, 30 and 60 degrees to the left, the same to the right.
+constexpr int kWays = 5;
+constexpr struct {
+  int32_t x, y;
+} kWay[kWays] = {{16384, 0}, {14189, 8192}, {8192, 14189}, {14189, -8192}, {8192, -14189}};
+
 }  // namespace
 
 Length LocalGrid::length_of(int32_t units) const noexcept {
@@ -55,6 +80,37 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
     if (solid != 0) found += bits(solid & stadium.columns(rows.row()));
   }
   return found;
+}
+
+Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon, Length radius) const noexcept {
+  const Point start = local(from);
+  const int32_t most = units(horizon);
+  const int32_t wide = units(radius);
+  const int32_t c = q14(cos(course));
+  const int32_t s = q14(sin(course));
+  int32_t free[kWays] = {most, most, most, most, most};
+  int32_t nearest = INT32_MAX;
+  const Row box = Span::around(start.x, most + wide).columns();
+  for (Rows rows(start.y, most + wide); rows.more(); rows.next()) {
+    Row solid = box & solid_row(rows.row()) & to_window(~clear_row(rows.row()));
+    const int32_t dy = rows.offset(start.y);
+    for (int32_t dx = kHalfCell - start.x; solid != 0; solid >>= 1, dx += kUnitsPerCell) {
+      if ((solid & 1U) == 0) continue;
+      const int32_t x = (dx * c + dy * s) / kOneQ14;
+      const int32_t y = (dy * c - dx * s) / kOneQ14;
+      if (x >= 0) nearest = least(nearest, distance_of(x, y < 0 ? -y : y));
+      for (int i = 0; i < kWays; ++i) {
+        const int32_t along = (x * kWay[i].x + y * kWay[i].y) / kOneQ14;
+        const int32_t across = (y * kWay[i].x - x * kWay[i].y) / kOneQ14;
+        const int32_t beside = across < 0 ? -across : across;
+        if (along <= abeam() || beside >= wide + kCellCover || along >= free[i] + wide) continue;
+        const int32_t rest = along - chord(wide, beside);
+        free[i] = least(free[i], rest < 0 ? 0 : rest);
+      }
+    }
+  }
+  return {length_of(free[1] > free[2] ? free[1] : free[2]), length_of(free[0]),
+          length_of(free[3] > free[4] ? free[3] : free[4]), nearest == INT32_MAX ? 60_m : length_of(nearest)};
 }
 
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {

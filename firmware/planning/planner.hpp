@@ -66,6 +66,7 @@ struct Decision {
   NewLane lane;
   fuzzy::Inputs inputs;  ///< of the response table, as last used
   fuzzy::Response response;
+  Angle bend;  ///< by which SA deflects the course, as of the last sensor update; counter-clockwise positive
 };
 
 /// A planner is called once per tick, never blocks, and keeps its last mode, reason and outcome until they

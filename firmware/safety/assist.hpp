@@ -30,10 +30,14 @@ class Assist {
   /// It changed the last request.
   bool active() const noexcept { return active_; }
 
+  /// The answers to the last request; zero if it was not for forward motion.
+  const fuzzy::Response& response() const noexcept { return response_; }
+
   Assist() noexcept;
 
  private:
   const fuzzy::Bilinear::Table* table_;
+  fuzzy::Response response_;
   bool active_ = false;
 };
 

@@ -20,11 +20,14 @@ Length shortest_warning(const Params& params) noexcept {
   return Length::from_raw(saturate32(way)) * 2 / 3;
 }
 
-Speed warned_speed(const Params& params, bool readings_err) noexcept {
+Duration warning_delay(const Params& params, bool readings_err) noexcept {
   const RangefinderParams& r = params.rangefinders;
   const int32_t readings = readings_err ? kAgreeing : kReadings;
-  const Duration delay = r.latency + milliseconds(readings * 1000 / r.rate_hz) + derived::settle_time(params);
-  return planning::stopping_speed(shortest_warning(params), delay, params);
+  return r.latency + milliseconds(readings * 1000 / r.rate_hz) + derived::settle_time(params);
+}
+
+Speed warned_speed(const Params& params, bool readings_err) noexcept {
+  return planning::stopping_speed(shortest_warning(params), warning_delay(params, readings_err), params);
 }
 
 }  // namespace whisker::safety

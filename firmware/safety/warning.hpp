@@ -14,8 +14,10 @@ namespace whisker::safety {
 /// less.
 Length shortest_warning(const Params& params) noexcept;
 
-/// From this speed, the body stops within the shortest warning, from the first echo on. `readings_err`: see
-/// Perception::readings_err().
+/// From an echo until the body brakes. `readings_err`: see Perception::readings_err().
+Duration warning_delay(const Params& params, bool readings_err) noexcept;
+
+/// From this speed, the body stops within the shortest warning, from the first echo on.
 Speed warned_speed(const Params& params, bool readings_err) noexcept;
 
 /// The same while the rims turn at this speed: what the inner flank runs into comes into view later. At least

@@ -15,9 +15,7 @@ from campaigns import CLASSES, ROBOTS, ROOT, Many, Section, campaign, cell, exam
 from campaigns import missions_of, summary, table, whisker
 
 PLANNERS = {
-    # With its rules, so that `fan` shows the same planner without.
-    "skirt": ("--planner", "skirt", "--rules", "default"),
-    "map": ("--planner", "map"),
+    **{name: ("--planner", name) for name in ("skirt", "map")},
     "map, 16 KB": ("--planner", "map", "--map-bytes", "16384"),
     **{name: ("--planner", name) for name in ("fan", "repulsion", "distbug", "bug2", "wall-follower", "thesis")},
 }
@@ -187,26 +185,44 @@ SETTINGS = {
 }
 
 
-@table(None, "worlds a class", 100, a={"default": "default", "help": "rule file, or default"},
-       b={"default": str(ROOT / "host/lab/rules/laws/straight.toml"), "help": "the same"},
-       planners={"nargs": "+", "default": ["map", "skirt"], "metavar": "NAME"})  # fmt: skip
-def laws(o):
-    """Response tables in the same worlds, paired. A is the core's own table; B a rule file, by default the same rules without their
-    turns. Cells, with 95 % bounds: time B / A; clearance B - A, mm; stops per metre B - A; contacts A, B. Below 1, B is faster."""
+def bounds(estimate, scale, digits, sign=""):
+    """"value (low to high)" of a mean or a ratio."""
+    if estimate is None:
+        return "-"
+    values = (estimate[key] for key in ("value", "low", "high"))
+    return "{} ({} to {})".format(*(None if value is None else f"{scale * value:{sign}.{digits}f}" for value in values))
 
-    def bounds(estimate, scale, digits, sign=""):
-        if estimate is None:
-            return "-"
-        values = (estimate[key] for key in ("value", "low", "high"))
-        return "{} ({} to {})".format(*(None if value is None else f"{scale * value:{sign}.{digits}f}" for value in values))
 
-    def compared(arguments, more):
-        c = summary("rules", f"compare {o.a} {o.b} --worlds {arguments}", o, *more)
-        figures = (("time_ratio", 1, 3), ("clearance_m_difference", 1000, 1, "+"), ("stops_per_m_difference", 1, 3, "+"))
-        return "; ".join((*(bounds(c[key], *how) for key, *how in figures), f"{c['a']['contacts']}, {c['b']['contacts']}"))
+LAWS = ROOT / "host/lab/rules/laws"
+
+
+@table("docs/rules.md", "worlds a class", 100, planners={"nargs": "+", "default": ["map"], "metavar": "NAME"})
+def heart(o):
+    """The core's table against one of zeros, which bends no course and sets no pace, and against a straight line in D and R; paired.
+    Cells, with 95 % bounds: time, core / zeros; clearance, core - zeros, mm; jerk, core / zeros; time, core / line; contacts of the
+    core, zeros, line. Fails where the core's table is slower than zeros beyond the bounds, or touches more often in all."""
+    touched, slower = [0, 0, 0], []
+
+    def against(other, arguments, more):
+        return summary("rules", f"compare {LAWS / other} default --worlds {arguments}", o, *more)
+
+    def cell(name, arguments, more):
+        zeros, ramp = (against(other, arguments, more) for other in ("zeros.toml", "ramp.toml"))
+        contacts = [zeros["b"]["contacts"], zeros["a"]["contacts"], ramp["a"]["contacts"]]
+        for i, of in enumerate(contacts):
+            touched[i] += of
+        low = (zeros["time_ratio"] or {}).get("low")
+        if low is not None and low > 1:
+            slower.append(name)
+        figures = (zeros, "time_ratio", 1, 3), (zeros, "clearance_m_difference", 1000, 1, "+"), (zeros, "jerk_ratio", 1, 2), (ramp, "time_ratio", 1, 3)
+        return "; ".join((*(bounds(of[key], *how) for of, key, *how in figures), ", ".join(map(str, contacts))))
 
     columns = {f"{planner}, {s}": ("--planner", planner, *more) for planner in o.planners for s, more in SETTINGS.items()}
-    return grid(("world",), CLASSES, columns, compared)
+    yield heading("world", *columns)
+    for name, arguments in CLASSES.items():
+        yield line(name, *(cell(f"{name}, {title}", arguments, more) for title, more in columns.items()))
+    if slower or touched[0] > touched[1]:
+        o.failed = f"the core's table: slower than zeros in {slower or 'none'}; contacts {touched}"
 
 
 # ---- Odometry

@@ -5,17 +5,19 @@
 namespace whisker::baselines {
 namespace {
 
-perception::Echoes seen(int left_mm, int front_mm, int right_mm) {
-  perception::Echoes e;
+planning::View seen(int left_mm, int front_mm, int right_mm) {
+  planning::View view;
   const int mm[] = {left_mm, front_mm, right_mm};
-  for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = {millimetres(mm[i]), perception::Validity::ok};
-  return e;
+  for (int i = 0; i < hal::kBeams; ++i)
+    view.moving_scan.beam[i] = {millimetres(mm[i]), perception::Validity::ok};
+  return view;
 }
 
 double degrees(int left_mm, int front_mm, int right_mm) {
   RepulsionDeflection law;
   planning::Decision decision;
-  return law.deflect(seen(left_mm, front_mm, right_mm), Params{}, decision).wrapped() * (360 / 4294967296.0);
+  return law.deflect(seen(left_mm, front_mm, right_mm), Angle{}, Params{}, decision).wrapped() *
+         (360 / 4294967296.0);
 }
 
 TEST(RepulsionDeflection, IsStraightWhereNothingIsNear) { EXPECT_EQ(degrees(2000, 2000, 2000), 0); }
@@ -45,7 +47,7 @@ TEST(RepulsionDeflection, PassesWhatIsAheadOnTheWiderSideAndIsBounded) {
 TEST(NoDeflection, NeverBends) {
   NoDeflection law;
   planning::Decision decision;
-  EXPECT_EQ(law.deflect(seen(100, 100, 300), Params{}, decision), Angle{});
+  EXPECT_EQ(law.deflect(seen(100, 100, 300), Angle{}, Params{}, decision), Angle{});
 }
 
 }  // namespace

@@ -60,19 +60,26 @@ class Drives(Case):
         self.assertEqual(own, same)
         self.assertEqual(own["rules_digest"], self.run_json()["rules_digest"])
 
-    def test_a_chosen_table_bends_the_course_and_the_built_in_one_only_if_asked(self):
+    def test_the_table_bends_the_course_unless_asked_not_to(self):
         bent, straight = (self.file(f"{word}.toml", f"bend_course = {word}\n") for word in ("true", "false"))
         for planner in ("map", "skirt"):
             plain, chosen, asked, not_asked = (
                 self.run_json("--planner", planner, *options)["hash"]
                 for options in ((), ("--rules", "default"), ("--robot", bent), ("--robot", straight))
             )
-            self.assertEqual((plain, chosen), (not_asked, asked))
-            self.assertNotEqual(plain, chosen)
+            self.assertEqual((plain, plain), (chosen, asked))
+            self.assertNotEqual(plain, not_asked)
             without_turns = self.run_json("--planner", planner, "--rules", STRAIGHT)["hash"]
-            self.assertEqual(plain, without_turns)
+            self.assertEqual(not_asked, without_turns)
         thesis = {self.run_json("--planner", "thesis", "--robot", robot)["hash"] for robot in (bent, straight)}
         self.assertEqual(len(thesis), 1)
+
+    def test_a_table_of_zeros_is_slower_where_the_sensors_lose_walls(self):
+        robot = ROOT / "host/robots/hc-sr04.toml"
+        options = ("--worlds", "discs", "--discs", "15", "--count", "6", "--seed", "31", "--robot", robot, "--json")
+        compared = json.loads(whisker.whisker("rules", "compare", STRAIGHT.with_name("zeros.toml"), "default", *options).stdout)
+        self.assertLess(compared["time_ratio"]["value"], 0.95)
+        self.assertEqual((compared["a"]["contacts"], compared["b"]["contacts"]), (0, 0))
 
     def test_other_rules_drive_otherwise_also_on_a_bus(self):
         text = (EXAMPLES / "thesis.toml").read_text().replace('["TLVB", 1.5]', '["TLVB", 0.2]').replace('["TRVB", -1.5]', '["TRVB", -0.2]')

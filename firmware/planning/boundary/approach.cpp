@@ -28,8 +28,13 @@ void Approach::move_goal(Vec at) noexcept {
   if (guide_ != nullptr) guide_->move_goal(at);
 }
 
-void Approach::observe(const View& view) noexcept {
+void Approach::observe(const View& view, const Target& target, bool active, Decision& decision) noexcept {
   if (guide_ != nullptr) guide_->observe(view);
+  if (!active) decision.bend = Angle{};
+  if (!view.sighted) return;
+  const Angle course = !active ? view.pose.heading : guided_ ? aim_ : target.direction();
+  const Angle bend = law_.deflect(view, course, behaviours_.params, decision);
+  decision.bend = active ? bend : Angle{};
 }
 
 void Approach::begin() noexcept {
@@ -60,7 +65,8 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   if (target.distance < closest()) measure_anew(view, target.distance);
   Vec to = target.to;
   if (guide_ != nullptr && advised(view, target.distance, to, decision)) return !refuted_;
-  if (view.sighted && !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
+  aim_ = bearing(to);
+  if (view.sighted && !course_.choose(view, to, decision.bend, behaviours_.params, wall, decision)) {
     return detour(view, target.distance, decision);
   }
   Angle heading = course_.heading();

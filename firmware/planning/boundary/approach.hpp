@@ -37,8 +37,8 @@ class Approach {
   void start(const View& view, const Goal& goal) noexcept;
   /// The goal moved to this place.
   void move_goal(Vec at) noexcept;
-  /// Once per tick, also while a boundary is followed.
-  void observe(const View& view) noexcept;
+  /// Once per tick, also while a boundary is followed. `active`: step() is called next.
+  void observe(const View& view, const Target& target, bool active, Decision& decision) noexcept;
 
   /// Resets the course to straight at the goal.
   void begin() noexcept;
@@ -75,6 +75,7 @@ class Approach {
   bool advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept;
 
   HeadingDeflection& law_;
+  Angle aim_;  // the direction of the goal or of the way point
   GlobalPlanner* guide_;
   Behaviours& behaviours_;
   Phase phase_ = Phase::drive;

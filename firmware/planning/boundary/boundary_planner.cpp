@@ -42,7 +42,7 @@ void BoundaryPlanner::advance(const View& view) noexcept {
   // What the body turns in front of a gap is none of the boundary.
   if (phase_ != Phase::gap) loop_.move(view);
   follower_.move(view);
-  approach_.observe(view);
+  approach_.observe(view, target_, phase_ == Phase::approach, decision_);
   act(view);
   if (gives_way(view)) {
     otherwise_ = decision_.why;

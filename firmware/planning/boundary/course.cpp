@@ -23,12 +23,11 @@ void Course::bend_towards(Angle wanted) noexcept {
   bend_ += static_cast<int32_t>(quotient(change * 3, grows ? 10 : 50));
 }
 
-bool Course::choose(const View& view, const Vec& to_goal, HeadingDeflection& law, const Params& params,
-                    Side& wall, Decision& decision) noexcept {
+bool Course::choose(const View& view, const Vec& to_goal, Angle deflection, const Params& params, Side& wall,
+                    Decision& decision) noexcept {
   const Length distance = norm(to_goal);
   const Angle target = bearing(to_goal);
-  const Angle bend = law.deflect(view.moving_scan, params, decision);
-  bend_towards(view.moving_scan.beam[hal::kFront].distance >= distance ? Angle{} : bend);
+  bend_towards(view.moving_scan.beam[hal::kFront].distance >= distance ? Angle{} : deflection);
 
   const Reach& reach = view.local_grid->reach();
   const Length length = min(reach.probe, distance);

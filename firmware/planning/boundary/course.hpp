@@ -7,11 +7,12 @@
 
 namespace whisker::planning {
 
-/// Law that deflects the course from the goal's direction in free space.
+/// Law that deflects the course from the goal's direction in free space, and may set the pace.
 class HeadingDeflection {
  public:
-  /// From the moving scan; counter-clockwise positive. Writes its inputs into the decision.
-  virtual Angle deflect(const perception::Echoes& sight, const Params& params,
+  /// Once per sensor update, whatever the planner does: how far to deflect this course, counter-clockwise
+  /// positive. A law with a response table writes its inputs and answers into the decision.
+  virtual Angle deflect(const View& view, Angle course, const Params& params,
                         Decision& decision) noexcept = 0;
 
  protected:
@@ -23,9 +24,10 @@ class Course {
   /// Resets the course to straight at the goal.
   void reset() noexcept { bend_ = 0; }
 
-  /// Once per sensor update. False: every heading within 75 degrees of the goal's is occupied.
-  /// `wall` is the side of the last obstacle: headings away from it come first. It is updated.
-  bool choose(const View& view, const Vec& to_goal, HeadingDeflection& law, const Params& params, Side& wall,
+  /// Once per sensor update. False: every heading within 75 degrees of the goal's is occupied. `deflection`:
+  /// see HeadingDeflection. `wall` is the side of the last obstacle: headings away from it come first. It is
+  /// updated.
+  bool choose(const View& view, const Vec& to_goal, Angle deflection, const Params& params, Side& wall,
               Decision& decision) noexcept;
   Angle heading() const noexcept { return heading_; }
 

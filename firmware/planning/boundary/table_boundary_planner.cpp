@@ -1,16 +1,24 @@
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
 
-#include "firmware/fuzzy/scale.hpp"
+#include "firmware/planning/ground_inputs.hpp"
 
 namespace whisker::planning {
+namespace {
 
-Angle TableDeflection::deflect(const perception::Echoes& sight, const Params& params,
+// Per unit of SA. The look ahead is shorter than a step of the thesis planner, and repeated at every reading;
+// where the ground may hold what no beam shows, distance is worth more than the way.
+constexpr Angle kBend = 4_deg;
+constexpr Angle kBendInDoubt = 8_deg;
+
+}  // namespace
+
+Angle TableDeflection::deflect(const View& view, Angle course, const Params& params,
                                Decision& decision) noexcept {
-  decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
-                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range);
+  decision.inputs =
+      ground_inputs(perception::nearest(view.moving_scan), *view.local_grid, view.pose.at, course, params);
   decision.response = engine_(decision.inputs);
   if (params.boundary.bend == Fitted::no) return {};
-  return scaled(derived::kBaseTurn, decision.response.turn);
+  return scaled(view.doubts ? kBendInDoubt : kBend, decision.response.turn);
 }
 
 }  // namespace whisker::planning

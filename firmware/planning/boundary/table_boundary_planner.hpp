@@ -7,11 +7,12 @@
 
 namespace whisker::planning {
 
-/// SA x base angle, by the response table, if BoundaryParams::bend asks for it.
+/// One look-up of the response table: SA bends the course by some degrees per unit, if BoundaryParams::bend
+/// asks for it, and SD sets the pace where clear ground is in doubt.
 class TableDeflection final : public HeadingDeflection {
  public:
   explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}
-  Angle deflect(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept override;
+  Angle deflect(const View& view, Angle course, const Params& params, Decision& decision) noexcept override;
 
  private:
   fuzzy::Engine engine_;

@@ -1,6 +1,7 @@
 #include "firmware/planning/thesis/thesis_planner.hpp"
 
 #include "firmware/fuzzy/scale.hpp"
+#include "firmware/planning/ground_inputs.hpp"
 
 namespace whisker::planning {
 namespace {
@@ -27,6 +28,7 @@ void ThesisPlanner::start(const View&) noexcept {
 }
 
 void ThesisPlanner::advance(const View& view) noexcept {
+  if (view.sighted && !view.settled) set_pace(view);
   if (!view.settled && phase_ != Phase::scan) return;
   switch (phase_) {
     case Phase::at_position: arrive_at_position(view); break;
@@ -44,6 +46,13 @@ void ThesisPlanner::advance(const View& view) noexcept {
       if (sees(view)) search(view);
       break;
   }
+}
+
+/// Its decisions use the echoes of this moment, as the thesis says. Between them, the ground sets the pace.
+void ThesisPlanner::set_pace(const View& view) noexcept {
+  decision_.inputs = ground_inputs(perception::nearest(view.moving_scan), *view.local_grid, view.pose.at,
+                                   view.pose.heading, params_);
+  decision_.response = engine_(decision_.inputs);
 }
 
 /// The guard cuts a step short at unseen ground: a scan may show that it is free. A second cut at the same

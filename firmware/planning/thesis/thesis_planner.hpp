@@ -60,6 +60,7 @@ class ThesisPlanner final : public GoalPlanner {
   void start(const View& view) noexcept override;
   void advance(const View& view) noexcept override;
   void enter(Phase phase) noexcept { follow(kArrows, phase_, phase); }
+  void set_pace(const View& view) noexcept;
   bool step_is_free(const View& view) const noexcept;
   bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;

@@ -17,6 +17,8 @@ TickRecord make_record(const Status& status, const RecordingGuide* guide, const 
   r.r_q7 = status.decision.inputs.bias.raw();
   r.sa_q14 = status.decision.response.turn.raw();
   r.sd_q14 = status.decision.response.step.raw();
+  r.bend_rad = radians(status.decision.bend);
+  r.pace_mps = status.pace.raw() * 1e-6;
   r.cell = status.decision.response.cell;
   r.command = status.command;
   r.est_x_m = status.pose.at.x.raw() * 1e-6;

@@ -28,6 +28,8 @@ struct TickRecord {
   bool looked = false;                                   ///< this tick's decision used a static scan
   std::int16_t d_q7 = 0, r_q7 = 0;                       ///< fuzzy inputs last used, 1/128
   std::int16_t sa_q14 = 0, sd_q14 = 0;                   ///< fuzzy outputs last used, 1/16384
+  double bend_rad = 0;                                   ///< by which SA bends the course
+  double pace_mps = 0;                                   ///< that SD sets; 0: it sets none
   fuzzy::Cell cell{};                                    ///< of the response table, last used
   hal::WheelSpeeds command{};                            ///< 0.1 mm/s
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate

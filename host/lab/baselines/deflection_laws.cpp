@@ -18,8 +18,9 @@ double push(Length range) {
 
 }  // namespace
 
-Angle RepulsionDeflection::deflect(const perception::Echoes& sight, const Params&,
+Angle RepulsionDeflection::deflect(const planning::View& view, Angle, const Params&,
                                    planning::Decision&) noexcept {
+  const perception::Echoes& sight = view.moving_scan;
   const Length left = sight.beam[hal::kLeft].distance;
   const Length right = sight.beam[hal::kRight].distance;
   const double sides = push(right) - push(left);

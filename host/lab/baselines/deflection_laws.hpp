@@ -10,7 +10,7 @@ namespace whisker::baselines {
 /// does not block (steps of 7.5 degrees to 75).
 class NoDeflection final : public planning::HeadingDeflection {
  public:
-  Angle deflect(const perception::Echoes&, const Params&, planning::Decision&) noexcept override {
+  Angle deflect(const planning::View&, Angle, const Params&, planning::Decision&) noexcept override {
     return {};
   }
 };
@@ -25,7 +25,7 @@ class RepulsionDeflection final : public planning::HeadingDeflection {
   static constexpr double kSideGain_rad = 0.05;   ///< per 1/m
   static constexpr double kFrontGain_rad = 0.20;  ///< per 1/m
 
-  Angle deflect(const perception::Echoes& sight, const Params& params,
+  Angle deflect(const planning::View& view, Angle course, const Params& params,
                 planning::Decision& decision) noexcept override;
 };
 

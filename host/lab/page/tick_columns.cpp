@@ -110,6 +110,8 @@ void add_decisions(Writer& w) {
   w.tick("r", kSteady, 128, [](const TickRecord& r) { return r.r_q7; });
   w.tick("sa", kSteady, 16384, [](const TickRecord& r) { return r.sa_q14; });
   w.tick("sd", kSteady, 16384, [](const TickRecord& r) { return r.sd_q14; });
+  w.decimal("bend_rad", kSteady, 10000, [](const TickRecord& r) { return r.bend_rad; });
+  w.decimal("pace_mps", kSteady, 1000, [](const TickRecord& r) { return r.pace_mps; });
   w.tick("cell_d", kSteady, 1, [](const TickRecord& r) { return r.cell.distance; });
   w.tick("cell_r", kSteady, 1, [](const TickRecord& r) { return r.cell.bias; });
   w.tick("guide", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(r.guide); });

@@ -19,7 +19,6 @@ class Drive final : public SimulatedRobot {
   void advance(int ticks) override;
   /// A robot that has arrived or given up starts again.
   void change(const Scenario& scenario) override;
-  void bend(bool on) override { scenario_.robot.boundary.bend = on ? Fitted::yes : Fitted::no; }
 
   TickRecord record() const override { return run_.record(); }
   RunResult result() const override { return run_.result(); }

@@ -30,7 +30,6 @@ constexpr int kSides = 2;
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
-bool edited = false;  // a table of the user, of rules or opened, bends the course
 fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
 std::unique_ptr<SimulatedRobot> robots[kSides];
 /// The one of them that the user drives, if there is one.
@@ -61,19 +60,6 @@ const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
 
 GuardDrive::Switches switches(int guarded, int nods, int assist) {
   return {guarded != 0, nods != 0, assist != 0};
-}
-
-bool same(const Q14 (&a)[fuzzy::kTerms][fuzzy::kTerms], const Q14 (&b)[fuzzy::kTerms][fuzzy::kTerms]) {
-  for (int d = 0; d < fuzzy::kTerms; ++d) {
-    if (!std::equal(a[d], a[d] + fuzzy::kTerms, b[d])) return false;
-  }
-  return true;
-}
-
-void bend_all() {
-  for (const auto& robot : robots) {
-    if (robot) robot->bend(edited);
-  }
 }
 
 int answer() { return static_cast<int>(exchanged.size()); }
@@ -114,7 +100,6 @@ WHISKER_EXPORT(judge) int judge() {
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  if (edited) scenario->robot.boundary.bend = Fitted::yes;
   if (side == 0) driven = nullptr;
   robots[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
   return 1;
@@ -199,6 +184,8 @@ WHISKER_EXPORT(record) int record(int side) {
     exchanged.push_back(reading.mm / 1000.0);
     exchanged.push_back(static_cast<double>(reading.status));
   }
+  exchanged.push_back(r.bend_rad);
+  exchanged.push_back(r.pace_mps);
   return answer();
 }
 
@@ -292,8 +279,6 @@ WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
     for (auto& row : *picture)
       for (Q14& q : row) q = Q14::from_raw(static_cast<std::int16_t>(*next++));
   fuzzy::generate<fuzzy::Bilinear>(rules, table);
-  edited = !same(rules.turn, fuzzy::kRules.turn) || !same(rules.step, fuzzy::kRules.step);
-  bend_all();
   return rule_faults(rules);
 }
 
@@ -306,8 +291,6 @@ WHISKER_EXPORT(set_table) int set_table(std::uint32_t hash) {
   if (!next) return 1;
   if (fuzzy::digest(*next) != hash) return 2;
   table = *next;
-  edited = true;
-  bend_all();
   return 0;
 }
 

@@ -24,9 +24,6 @@ class SimulatedRobot {
   /// Adopts obstacles and goal of this scenario; start, noise, seed and time limit stay.
   virtual void change(const Scenario& scenario) = 0;
 
-  /// Whether SA bends its course, from now on. The guard has no course.
-  virtual void bend(bool /*on*/) {}
-
   virtual TickRecord record() const = 0;
   /// The verdict is valid only if it is over.
   virtual RunResult result() const = 0;

@@ -76,6 +76,8 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
   sigma(metres(of.along));
   sigma(metres(of.across));
   sigma(radians(of.heading));
+  inner(r.bend_rad, 5);
+  inner(r.pace_mps, 5);
   row.end();
 }
 
@@ -95,7 +97,7 @@ std::string range_text(const hal::RangeReading& reading, const RangefinderParams
 const char* const kTraceHeader =
     "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
     "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_y_m,"
-    "pressed,sigma_along_m,sigma_across_m,sigma_heading_rad";
+    "pressed,sigma_along_m,sigma_across_m,sigma_heading_rad,bend_rad,pace_mps";
 
 std::string trace_csv(const RunLog& log) {
   const std::vector<TickRecord>& records = log.ticks().records;

@@ -18,9 +18,13 @@
 /// - way_x_m, way_y_m: the way point, in the frame of the estimate, 6 decimals
 /// - pressed: bump switches, the sum of 1 for the left, 2 for the front and 4 for the right one; 0 without a
 ///   bumper
+/// - sigma_along_m, sigma_across_m, sigma_heading_rad: of the estimate, 6 decimals; empty if unknown
+/// - bend_rad: by which SA bends the course now, 5 decimals, to the left positive
+/// - pace_mps: that SD sets now straight ahead, 5 decimals; 0 if it sets none
 ///
-/// d, r, sa, sd and the estimate are empty on a bus, which does not carry them. guide and way point are empty
-/// for planners without a map and on a bus, too; the way point is empty if the guide has none.
+/// d, r, sa, sd, bend, pace and the estimate are empty on a bus, which does not carry them. guide and way
+/// point are empty for planners without a map and on a bus, too; the way point is empty if the guide has
+/// none.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/fuzzy/rules.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 #include "tests/planning/ground.hpp"
 
@@ -12,33 +13,22 @@ using test::echoes;
 using test::Ground;
 using test::in_degrees;
 
-class Bends final : public HeadingDeflection {
- public:
-  explicit Bends(Angle by) : by_(by) {}
-  Angle deflect(const perception::Echoes&, const Params&, Decision&) noexcept override { return by_; }
-
- private:
-  Angle by_;
-};
-
 constexpr Vec kGoal{3_m, 4_m};  // 53.13 degrees
 constexpr double kTarget = 53.130102;
 
 /// The heading after so many readings, degrees from the goal's direction.
 double heads(Course& course, const View& view, Angle bend, int readings, Decision& decision) {
-  Bends law(bend);
   Side wall = Side::left;
   for (int i = 0; i < readings; ++i) {
-    EXPECT_TRUE(course.choose(view, kGoal, law, Params{}, wall, decision));
+    EXPECT_TRUE(course.choose(view, kGoal, bend, Params{}, wall, decision));
   }
   return in_degrees(course.heading()) - kTarget;
 }
 
 /// Whether it finds a heading at the first reading, without a bend.
 bool chooses(Course& course, const Ground& g, Vec goal, Side& wall) {
-  Bends law(0_deg);
   Decision decision;
-  return course.choose(g.view(), goal, law, g.params(), wall, decision);
+  return course.choose(g.view(), goal, 0_deg, g.params(), wall, decision);
 }
 
 TEST(Course, LeadsStraightToTheGoalInTheOpen) {
@@ -76,24 +66,22 @@ TEST(Course, IgnoresWhatIsBeyondTheGoal) {
   View view = g.view();
   Course course;
   Decision decision;
-  Bends law(20_deg);
   Side wall = Side::left;
   view.moving_scan = echoes(400, 400, 400);
-  for (int i = 0; i < 10; ++i) course.choose(view, {300_mm, 0_mm}, law, g.params(), wall, decision);
+  for (int i = 0; i < 10; ++i) course.choose(view, {300_mm, 0_mm}, 20_deg, g.params(), wall, decision);
   EXPECT_NEAR(in_degrees(course.heading()), 0, 1e-5);
-  for (int i = 0; i < 10; ++i) course.choose(view, {500_mm, 0_mm}, law, g.params(), wall, decision);
+  for (int i = 0; i < 10; ++i) course.choose(view, {500_mm, 0_mm}, 20_deg, g.params(), wall, decision);
   EXPECT_GT(in_degrees(course.heading()), 5);
 }
 
 TEST(Course, GivesUpTheBendForTheGoalsOwnDirection) {
   Ground g;
   g.free(125, 430).echo(70, 125, 150_mm);
-  Bends law(45_deg);
   Course course;
   Decision decision;
   Side wall = Side::left;
   for (int i = 0; i < 50; ++i)
-    ASSERT_TRUE(course.choose(g.view(), {3_m, 0_mm}, law, g.params(), wall, decision));
+    ASSERT_TRUE(course.choose(g.view(), {3_m, 0_mm}, 45_deg, g.params(), wall, decision));
   EXPECT_EQ(course.heading(), 0_deg);
   EXPECT_EQ(decision.why, Why::narrow);
 }
@@ -133,11 +121,10 @@ TEST(Course, LeavesRoomWhereThereIsSome) {
     const View view = g->view();
     const Reach& reach = view.local_grid->reach();
     ASSERT_NE(way(view, {}, reach.probe, reach.planning), Way::occupied);
-    Bends law(0_deg);
     Course course;
     Decision decision;
     Side wall = Side::left;
-    ASSERT_TRUE(course.choose(view, {2_m, 0_mm}, law, g->params(), wall, decision));
+    ASSERT_TRUE(course.choose(view, {2_m, 0_mm}, 0_deg, g->params(), wall, decision));
     if (g == &pole) {
       EXPECT_LT(in_degrees(course.heading()), -5);
     } else {
@@ -192,21 +179,57 @@ TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
   EXPECT_EQ(course.heading(), 0_deg);
 }
 
-TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
-  TableDeflection law(fuzzy::kDefaultTable);
-  Params params;
-  params.boundary.bend = Fitted::yes;
-  Decision decision;
-  const Angle right = law.deflect(echoes(300, 600, 2000), params, decision);
-  EXPECT_LT(in_degrees(right), -1);
-  EXPECT_EQ(scaled(derived::kBaseTurn, decision.response.turn), right);
-  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), params, decision), -right);
+/// Something stands on the left, 0.15 m beside a course along the x axis.
+Ground left_of_the_course() {
+  Ground g;
+  g.free(0, 360, 190_mm).echo(20, 70, 200_mm);
+  return g;
 }
 
-TEST(TableDeflection, IsStraightUnlessItIsAskedToBend) {
+View seeing(const Ground& g, int32_t nearest_mm) {
+  View view = g.view();
+  view.moving_scan = echoes(nearest_mm, 2000, 2000);
+  return view;
+}
+
+TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
+  const Ground g = left_of_the_course();
   TableDeflection law(fuzzy::kDefaultTable);
   Decision decision;
-  EXPECT_EQ(law.deflect(echoes(300, 600, 2000), Params{}, decision), Angle{});
+  const Angle right = law.deflect(seeing(g, 200), 0_deg, g.params(), decision);
+  EXPECT_LT(in_degrees(right), -1);
+  EXPECT_GT(decision.inputs.bias, Q7{});
+  EXPECT_GT(in_degrees(law.deflect(seeing(g, 200), 90_deg, g.params(), decision)), 1) << "it is on the right";
+}
+
+TEST(TableDeflection, SetsThePaceByTheNearestEcho) {
+  const Ground g = left_of_the_course();
+  TableDeflection law(fuzzy::kDefaultTable);
+  Decision decision;
+  Q14 last;
+  for (const int32_t mm : {0, 100, 200, 400, 600, 800}) {
+    law.deflect(seeing(g, mm), 0_deg, g.params(), decision);
+    EXPECT_GE(decision.response.step, last) << mm;
+    last = decision.response.step;
+  }
+  EXPECT_LT(last, fuzzy::step_terms::M) << "the grid knows what is nearer than the echoes";
+  Ground open;
+  open.free(0, 360);
+  law.deflect(seeing(open, 810), 0_deg, open.params(), decision);
+  EXPECT_EQ(decision.response.step, fuzzy::step_terms::VB);
+  View blind = seeing(g, 800);
+  blind.moving_scan.beam[hal::kRight].validity = perception::Validity::stale;
+  law.deflect(blind, 0_deg, g.params(), decision);
+  EXPECT_EQ(decision.inputs.distance, Q7{});
+}
+
+TEST(TableDeflection, IsStraightIfItIsAskedNotToBend) {
+  const Ground g = left_of_the_course();
+  TableDeflection law(fuzzy::kDefaultTable);
+  Params params = g.params();
+  params.boundary.bend = Fitted::no;
+  Decision decision;
+  EXPECT_EQ(law.deflect(seeing(g, 200), 0_deg, params, decision), Angle{});
   EXPECT_LT(decision.response.turn, Q14{}) << "what it would have been";
 }
 

@@ -100,7 +100,7 @@ TEST(Edge, IsNeverTakenTooFast) {
 
 class Straight final : public HeadingDeflection {
  public:
-  Angle deflect(const perception::Echoes&, const Params&, Decision&) noexcept override { return {}; }
+  Angle deflect(const View&, Angle, const Params&, Decision&) noexcept override { return {}; }
 };
 
 struct End {

@@ -5,7 +5,7 @@ import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
 import type {Scenery} from './scenery.ts';
 import type {Theme} from './theme.ts';
-import {usesTable} from './table_use.ts';
+import {bendOf} from './table_use.ts';
 import {metres} from './words.ts';
 
 /** Metres from the body to the nearest side, for the reference body of 0.09 m. */
@@ -104,7 +104,8 @@ export class CloseUp {
     };
     arrow(toGoal, reach * 1.25, p.goal, true);
     if (led) arrow(ahead, reach * 1.25, p.map, true);
-    if (usesTable(run, tick)) arrow(ahead + at('sa') * run.info.robot.base_turn, reach, p.table, false);
+    const bend = bendOf(run, tick);
+    if (bend !== 0) arrow(ahead + bend, reach, p.table, false);
   }
 
   private label(tick: number): void {

@@ -5,7 +5,7 @@ import {BlockLane, type Lane} from './lanes.ts';
 import {showPathKeys} from './legend.ts';
 import {noiseWords, sharedFacts} from './run_facts.ts';
 import {showPartsOf, type Story} from './story.ts';
-import {usesTable} from './table_use.ts';
+import {bendOf} from './table_use.ts';
 import type {Colour} from './theme.ts';
 import {DOING_COLOURS, DOING_WIDTHS} from './way_looks.ts';
 import {metres, sentence, shownName, verdict, verdictClass} from './words.ts';
@@ -80,7 +80,7 @@ export class MissionStory implements Story {
   private readonly state: BlockLane;
   private readonly map: BlockLane | null;
   private scanned = 0;
-  private asksTable = false;
+  private bends = false;
   readonly way = {column: 'doing', colours: DOING_COLOURS, widths: DOING_WIDTHS};
 
   constructor(private readonly run: Run) {
@@ -101,12 +101,12 @@ export class MissionStory implements Story {
   /** Shows the keys of what has occurred. */
   grow(): void {
     const {run, state, map} = this;
-    for (; this.scanned < run.ticks; ++this.scanned) this.asksTable ||= usesTable(run, this.scanned);
+    for (; this.scanned < run.ticks; ++this.scanned) this.bends ||= bendOf(run, this.scanned) !== 0;
     state.grow();
     map?.grow();
     showPathKeys(state.colours());
     element('way-key').hidden = !map?.colours().has('map');
-    element('course-key').hidden = !this.asksTable;
+    element('course-key').hidden = !this.bends;
   }
 
   chip(tick: number): [words: string, colour: Colour] {

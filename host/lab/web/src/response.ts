@@ -3,18 +3,24 @@ import type {Controller, Seen} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {HeatMap} from './heatmap.ts';
 import {firedRules, type FiredRule} from './rules.ts';
-import {asksOfNow, usesTable} from './table_use.ts';
+import {asksOfNow, bendOf, paceOf, usesTable} from './table_use.ts';
 import type {Theme} from './theme.ts';
 import {degrees, ruleThen, ruleWhen} from './words.ts';
 
 const SHOWN_RULES = 4;
 const UNKNOWN = 'Inputs and outputs of the table are not known here, because they stay in the controller.';
 
-/** "12 degrees left" */
-function sideways(radians: number): string {
+/** "SA bends the course 12° to the left: right is near." */
+function bends(radians: number): string {
   const d = degrees(radians);
-  if (Math.abs(d) < 0.5) return 'straight on';
-  return `${Math.abs(d).toFixed(0)}° to the ${d > 0 ? 'left' : 'right'}`;
+  if (Math.abs(d) < 0.5) return '';
+  const [to, near] = d > 0 ? ['left', 'right'] : ['right', 'left'];
+  return `SA bends the course ${Math.abs(d).toFixed(0)}° to the ${to}: ${near} is near.`;
+}
+
+/** "SD sets the pace: 0.25 of 0.30 m/s." */
+function paces(speed: number, most: number): string {
+  return speed > 0 ? `SD sets the pace: ${speed.toFixed(2)} of ${most.toFixed(2)} m/s.` : '';
 }
 
 export class ResponsePanel {
@@ -64,7 +70,8 @@ export class ResponsePanel {
     const at = (name: string) => run.column(name)[tick];
     const inUse = usesTable(run, tick);
     const ofNow = asksOfNow(run, tick);
-    const question = `${at('d')} ${at('r')} ${run.mode(tick)} ${ofNow}`;
+    const [bend, pace] = [bendOf(run, tick), paceOf(run, tick)];
+    const question = `${at('d')} ${at('r')} ${run.mode(tick)} ${ofNow} ${bend} ${pace.toFixed(2)}`;
     if (question === this.shown) return;
     this.shown = question;
     // No answer has a step factor of 0: the table has not been used yet.
@@ -87,8 +94,8 @@ export class ResponsePanel {
     setText('value-r', at('r').toFixed(2));
     setText('value-sa', at('sa').toFixed(2));
     setText('value-sd', at('sd').toFixed(2));
-    const asked = sideways(at('sa') * run.info.robot.base_turn);
-    setText('table-says', this.says(tick, inUse, ofNow, asked));
+    const now = [bends(bend), paces(pace, run.info.robot.max_speed)].filter(Boolean).join(' ');
+    setText('table-says', this.says(tick, ofNow, now));
     this.listRules(rules);
   }
 
@@ -99,12 +106,11 @@ export class ResponsePanel {
     element('rules').replaceChildren();
   }
 
-  private says(tick: number, inUse: boolean, ofNow: boolean, asked: string): string {
-    if (inUse && ofNow) return `Now it requests ${asked}.`;
-    if (inUse)
-      return `It requests ${asked}, from earlier readings on which the beams agreed: the readings of this tick differ.`;
+  private says(tick: number, ofNow: boolean, now: string): string {
+    if (now && ofNow) return now;
+    if (now) return `${now} It asked earlier readings, on which the beams agreed.`;
     const instead = this.run.mode(tick) === 'skirting' ? ': the robot follows a boundary' : '';
-    return `Not in use now${instead}. Its last answer was ${asked}.`;
+    return `Neither answer changes anything now${instead}.`;
   }
 
   private listRules(rules: FiredRule[]): void {

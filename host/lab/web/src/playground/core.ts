@@ -40,6 +40,7 @@ const COLUMNS = [
   'guide', 'way_x_m', 'way_y_m', 'sigma_along_m', 'sigma_across_m', 'sigma_heading_rad',
   'grid_x_m', 'grid_y_m', 'grid_heading_rad',
   'left_m', 'left_status', 'front_m', 'front_status', 'right_m', 'right_status',
+  'bend_rad', 'pace_mps',
 ] as const; // prettier-ignore
 
 export const OUTCOMES = ['reached', 'off_goal', 'unreachable', 'gave_up', 'contact', 'fault'] as const;
@@ -104,7 +105,7 @@ export class Core {
     this.robot = {
       radius, track, max_speed, min_range, max_range, offset, cell, period,
       side_angle: side * pi, cone: cone * pi, base_turn: turn * pi,
-      bends: false,
+      bends: true,
     }; // prettier-ignore
   }
 

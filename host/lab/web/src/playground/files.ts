@@ -24,11 +24,10 @@ function noteOf({state, opened}: Playground): string | null {
 
 export function offerFiles(play: Playground, core: Core, driver: Driver): void {
   element('save-scenario').addEventListener('click', () => {
-    const {kind, seed, own, rules} = play.state;
-    const bends = rules || play.opened ? ['bend_course = true'] : [];
+    const {kind, seed, own} = play.state;
     save(
       `${kind}-${seed}${own ? '-changed' : ''}.toml`,
-      scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : bends),
+      scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : []),
     );
   });
   element('save-drive').addEventListener('click', () => save('drive.csv', driver.csv()));

@@ -67,7 +67,6 @@ async function open(): Promise<void> {
     const code = opened ? null : rules.code;
     refreshController(controller, core, answers, opened !== null);
     response.restyle();
-    core.robot.bends = opened !== null || code !== null;
     play.setRules(code, opened);
   };
   const table = new TablePanel(core, follow);
