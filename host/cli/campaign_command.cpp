@@ -124,11 +124,11 @@ bool drive_all(const CampaignOptions& o, Missions missions, std::vector<campaign
     }
     missions.first += rows.size() - 1;
   }
-  const bool random = has_random_robots(missions);
+  const bool scaled = has_worlds_of_size(missions);
   const bool whole = drive_many(
       missions, o.jobs,
       [&](const Scenario& scenario, const std::atomic<bool>& stop) {
-        const double size = random ? campaign::size_of(scenario.robot) : 1;
+        const double size = scaled ? campaign::size_of(scenario.robot) : 1;
         return campaign::drive(scenario, missions.planner, stop, campaign::kWayRadius * size);
       },
       [&](const campaign::Row& row) {
@@ -228,6 +228,8 @@ void add_campaign(CLI::App& app, int& status) {
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma, "Scale error of the wheels, as in `whisker world`");
   add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
+  add_switch(*cmd, "--to-size", o->to_size,
+             "With --robot: each world scaled to its body,\nand no tolerance below that of the world");
   add_name(*cmd, "--robots", o->robots, "Each seed draws a robot, in a world of its size")
       ->type_name("random");
   add_jobs(*cmd, *o);
@@ -253,7 +255,7 @@ void add_campaign(CLI::App& app, int& status) {
     if (o->replay) {
       refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--width", "--box", "--noise",
                            "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map", "--robot",
-                           "--robots", "--svg", "--trace", "--html", "--json"});
+                           "--robots", "--to-size", "--svg", "--trace", "--html", "--json"});
     }
     if (o->scanner) {
       refuse_others(*cmd, {"--scanner", "KIND|DIR", "--discs", "--width", "--box", "--count", "--seed",

@@ -1,5 +1,6 @@
 #include "host/cli/campaign_options.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include "host/cli/rules_choice.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/campaign/ordered.hpp"
+#include "host/lab/campaign/random_robot.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -42,6 +44,7 @@ campaign::Files folder(const CampaignOptions& o) {
         "says all that itself");
   }
   if (!o.robots.empty()) throw UsageError("--robots is for generated worlds; scenario files have robots");
+  if (o.to_size) throw UsageError("--to-size is for generated worlds; scenario files have a size");
   if (o.replay)
     throw UsageError("--replay is for generated worlds; `whisker run` drives a scenario file again");
   try {
@@ -133,12 +136,14 @@ Missions missions(const CampaignOptions& o) {
     throw UsageError(fmt::format("--robots {}: not random", o.robots));
   }
   if (!o.robots.empty() && !o.robot.empty()) throw UsageError("--robots does not go with --robot");
+  if (o.to_size && o.robot.empty()) throw UsageError("--to-size needs --robot, whose size it is");
   if (campaign::has_control_characters(o.robot)) {
     throw UsageError("--robot: the file's name has control characters in it");
   }
   Missions m;
   m.planner = o.planner;
   m.robot = o.robot;
+  m.to_size = o.to_size;
   if (const auto kind = worlds::kind_named(o.worlds)) {
     m.worlds = generated(o, *kind);
   } else {
@@ -161,10 +166,20 @@ bool has_random_robots(const Missions& m) {
   return generated != nullptr && generated->random_robots;
 }
 
+bool has_worlds_of_size(const Missions& m) { return m.to_size || has_random_robots(m); }
+
 campaign::Mission mission(const Missions& m, std::uint64_t index) {
   campaign::Mission mission =
       std::visit([&](const auto& worlds) { return campaign::mission(worlds, index); }, m.worlds);
   const bool generated = std::holds_alternative<campaign::Generated>(m.worlds);
+  if (m.to_size) {
+    Params robot;
+    apply_robot_file(robot, m.robot);
+    const double tolerance = mission.scenario.goal.tolerance_m;
+    campaign::fit_to(mission.scenario, robot);
+    mission.scenario.goal.tolerance_m = std::max(mission.scenario.goal.tolerance_m, tolerance);
+    mission.world += campaign::kToSize;
+  }
   if (generated && !m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
   bend_if_chosen(mission.scenario.robot, m.planner);
   return mission;

@@ -23,8 +23,9 @@ struct CampaignOptions {
   worlds::Options world;
   PlannerKind planner = kDefaultPlanner;
   std::string robot;
-  std::string robots;  ///< "random", or empty
-  int jobs = 0;        ///< 0: one per core
+  std::string robots;    ///< "random", or empty
+  bool to_size = false;  ///< the worlds are scaled to the robot
+  int jobs = 0;          ///< 0: one per core
   std::string shard;
   std::string csv;
   bool overwrite = false;     ///< the file of csv
@@ -43,6 +44,7 @@ struct Missions {
   std::variant<campaign::Generated, campaign::Files> worlds;
   PlannerKind planner = kDefaultPlanner;
   std::string robot;
+  bool to_size = false;  ///< each world is scaled to the robot
   std::uint64_t first = 0;
   std::uint64_t last = 0;
   std::uint64_t all = 0;  ///< of the whole campaign
@@ -62,6 +64,8 @@ Missions missions(const CampaignOptions& options);
 
 /// Every mission has a random robot.
 bool has_random_robots(const Missions& missions);
+/// Every world is scaled to its robot.
+bool has_worlds_of_size(const Missions& missions);
 
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
 campaign::Mission mission(const Missions& missions, std::uint64_t index);

@@ -10,6 +10,7 @@ void add_world(CLI::App& app, int& status);
 void add_robot(CLI::App& app, int& status);
 void add_robot_check(CLI::App& robot, int& status);
 void add_robot_layout(CLI::App& robot, int& status);
+void add_robot_list(CLI::App& robot, int& status);
 void add_robot_calibrate(CLI::App& robot, int& status);
 void add_robot_calibrate_drive(CLI::App& robot, int& status);
 void add_campaign(CLI::App& app, int& status);

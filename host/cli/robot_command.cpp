@@ -306,10 +306,11 @@ void add_robot_check(CLI::App& robot, int& status) {
 }
 
 void add_robot(CLI::App& app, int& status) {
-  CLI::App* robot =
-      app.add_subcommand("robot", "Check a robot's parameters, lay out its sensors, or measure them");
+  CLI::App* robot = app.add_subcommand(
+      "robot", "Check a robot's parameters, list robots, lay out sensors, or measure them");
   robot->require_subcommand(1);
   add_robot_check(*robot, status);
+  add_robot_list(*robot, status);
   add_robot_layout(*robot, status);
   add_robot_calibrate(*robot, status);
   add_robot_calibrate_drive(*robot, status);

@@ -316,6 +316,43 @@ HEADINGS = {
 
 ONE_CLASS = {"choices": SOME, "help": "only this class"}
 
+OWNED = {path.stem: path for path in (*sorted((ROBOTS / "owned").glob("*.toml")), ROBOTS / "pico.toml")}
+BOUGHT = scaled(0.01, "wheel_scale_sigma = 0.01\n")
+# Title: (name of the section, parameters and [noise] that go into the robot's file).
+GRADES = {
+    "gyro": ("with a gyro, calibrated: the spin, and 5 m along a tape", SPUN),
+    "wheels": ("without a gyro, calibrated: squares of 2 m, and 5 m along a tape", f"{UMBMARK}[noise]\n{UMBMARK}"),
+    "bought": ("with a gyro, as bought: wheels and gyro known to 1 %", BOUGHT),
+}
+
+
+def graded(robot, grade):
+    """The file of this robot with the parameters and the noise of this grade. The noise of its ranges is that of its [sensor]."""
+    parameters, _, noise = grade.partition("[noise]\n")
+    text, _, own = robot.read_text(encoding="utf-8").partition("[noise]\n")
+    return file_of(f"{parameters}{text}\n[noise]\nrange_sigma_m = 0\n{own}{noise}")
+
+
+@table("docs/robots.md", "missions a class", 100, " Cells: truly there %, off %, contact %, s/m p50.",
+       names={"nargs": "*", "help": "only these robots"}, grade={"choices": GRADES, "help": "only this table"})  # fmt: skip
+def owned(o):
+    """Robots that people own, in worlds of their size, with the noise of `whisker world --noise`: a table for each grade of calibration.
+    Exit status 1 after a contact."""
+    if unknown := {*o.names} - {*OWNED}:
+        fail(f"{ROBOTS} has no {', '.join(sorted(unknown))}")
+    classes, touched = ("30 discs", "U-traps", "mazes", "rooms"), 0
+    for name in [o.grade] if o.grade else GRADES:
+        title, grade = GRADES[name]
+        yield Section("docs/robots.md", f"owned-{name}")
+        yield heading(title, *classes)
+        for robot in o.names or OWNED:
+            all_of = [campaign(world, o, "--noise", "--to-size", "--robot", graded(OWNED[robot], grade)) for world in classes]
+            touched += sum(missions_of(s, "contact") for s in all_of)
+            shares = [[f"{100 * s[key]['value']:.0f}" for key in ("truly_there", "off_goal", "contact")] for s in all_of]
+            paces = [f"{s['s_per_m']['p50']['value']:.1f}" if s["s_per_m"]["p50"] else "-" for s in all_of]
+            yield line(robot, *(", ".join([*share, pace]) for share, pace in zip(shares, paces)))
+    o.failed = touched and f"{touched} missions ended in contact"
+
 
 @table("docs/odometry.md", "missions a cell", 60, world=ONE_CLASS, row={"choices": HEADINGS, "action": "append", "help": "only this row; may be repeated"})
 def gyro(o):

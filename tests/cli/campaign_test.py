@@ -281,6 +281,27 @@ class Folders(Driven):
         self.refused("campaign", "empty", says="no scenario files")
 
 
+class ToSize(Driven):
+    def test_the_worlds_are_scaled_to_the_robot(self):
+        self.file("twice.toml", "body_radius_m = 0.18\nwheel_track_m = 0.28\n")
+        self.file("half.toml", "body_radius_m = 0.045\nwheel_track_m = 0.07\nrange_cone_deg = 30\n")
+        plain = rows_of(self.rows("discs", "--discs", 3, "--count", 2))
+        for robot, size in (("twice.toml", 2), ("half.toml", 0.5)):
+            rows = rows_of(self.rows("discs", "--discs", 3, "--count", 2, "--robot", robot, "--to-size"))
+            self.assertEqual({row["world"] for row in rows}, {"discs --discs 3 --to-size"})
+            for row, reference in zip(rows, plain):
+                self.assertEqual(row["outcome"], "reached")
+                self.assertAlmostEqual(float(row["shortest_m"]), size * float(reference["shortest_m"]), delta=0.01 * size)
+            again = whisker.whisker("campaign", "discs", "--discs", 3, "--to-size", "--robot", robot, "--replay", 2, "--json", cwd=self.folder)
+            self.assertEqual(json.loads(again.stdout)["hash"], rows[1]["hash"])
+
+    def test_needs_the_file_of_a_robot_and_generated_worlds(self):
+        self.refused("campaign", "discs", "--to-size", says="--to-size needs --robot")
+        self.file("mine.toml", "")
+        (self.folder / "worlds").mkdir()
+        self.refused("campaign", "worlds", "--to-size", "--robot", "mine.toml", says="--to-size is for generated worlds")
+
+
 class RandomRobots(Driven):
     RANDOM = ("discs", "--discs", 5, "--robots", "random", "--seed", 2)
 

@@ -183,6 +183,67 @@ class RobotCheck(Case):
         self.refused("robot", "check", "odd.toml", "--header", "odd.toml", says="would overwrite")
 
 
+class Owned(Case):
+    """The robots that people own: host/robots/owned, and the Pico robot."""
+
+    ROBOTS = (*sorted((ROOT / "host/robots/owned").glob("*.toml")), ROOT / "host/robots/pico.toml")
+    # Each cannot drive with what it has: file, what is said of it.
+    REFUSED = {
+        "servo-car": ("'encoder_counts_per_m' must be from 100 to 1000000, but is 0", "'range_rate_hz' must be from 5 to 100, but is 1"),
+        "e-puck2-infrared": ("'range_max_m' must be from 0.2 to 60 m, but is 0.07",),
+        "thymio": ("'encoder_counts_per_m' must be from 100 to 1000000, but is 0", "'range_max_m' must be from 0.2 to 60 m, but is 0.09"),
+    }
+
+    def test_each_fits_as_it_stands_and_sets_what_is_its_own(self):
+        self.assertEqual(len(self.ROBOTS), 17)
+        for robot in self.ROBOTS:
+            done = check(robot, "--json")
+            self.assertEqual(done.returncode, 0, f"{robot}: {done.stdout}{done.stderr}")
+            result = json.loads(done.stdout)
+            self.assertTrue(result["fit"], robot)
+            if robot.stem != "pico":
+                self.assertEqual([key for key in result["unset"] if key != "range_offset_m"], [], robot)
+
+    def test_each_figure_has_its_source(self):
+        for robot in self.ROBOTS[:-1]:
+            for line in robot.read_text().split("[sensor]")[0].splitlines():
+                if line.startswith(("body_", "wheel_", "encoder_", "turn_", "motor_", "range_")) and "_x_m" not in line and "_y_m" not in line:
+                    self.assertRegex(line, r"^\w+ = \S+ +# \S", robot)
+
+    def test_what_no_setting_mends_is_refused_with_the_reason(self):
+        files = sorted((ROOT / "tests/cli/robots").glob("*.toml"))
+        self.assertEqual([file.stem for file in files], sorted(self.REFUSED))
+        for file in files:
+            done = check(file)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), file)
+            self.assertEqual([line.split(": ", 1)[1] for line in done.stderr.splitlines()], list(self.REFUSED[file.stem]))
+
+    def test_are_listed_from_the_folder_that_the_command_comes_with(self):
+        done = whisker.whisker("robot", "list")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        *lines, last = done.stdout.splitlines()
+        self.assertRegex(last, r"^\d+ robots in \S+/host/robots; ")
+        for robot in self.ROBOTS[:-1]:
+            one = [line for line in lines if line.split()[0] == f"owned/{robot.stem}"]
+            self.assertRegex(one[0], r"^owned/\S+ +[a-z]\S* ?\S* +\d+ counts/m  fits  \S")
+        self.assertRegex(done.stdout, r"(?m)^owned/romi  +vl53l0x +6535 counts/m  fits  Pololu Romi with three VL53L0X")
+
+    def test_a_folder_with_a_robot_that_does_not_fit(self):
+        (self.folder / "robots").mkdir()
+        for name, text in (("good.toml", "# Mine. It has wheels.\nencoder_counts_per_m = 1234\n"), ("bad.toml", "range_rate_hz = 1\n"), ("notes.txt", "")):
+            (self.folder / "robots" / name).write_text(text)
+        done = whisker.whisker("robot", "list", "robots", cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        bad, good, last = done.stdout.splitlines()
+        self.assertEqual(bad, "bad   refused: robots/bad.toml:1:17: 'range_rate_hz' must be from 5 to 100, but is 1")
+        self.assertEqual(good, "good  ideal       1234 counts/m  fits  Mine")
+        self.assertEqual(last, "2 robots in robots; `whisker robot check` drives one")
+        told = json.loads(whisker.whisker("robot", "list", "robots", "--json", cwd=self.folder).stdout)
+        self.assertEqual([(r["name"], r["fits"]) for r in told["robots"]], [("bad", False), ("good", True)])
+        self.assertEqual((told["robots"][1]["encoder_counts_per_m"], told["robots"][1]["refused"]), (1234, None))
+        self.refused("robot", "list", "nowhere", says="nowhere: no robot files")
+
+
 class Header(Case):
     def compiled(self, text, core=ROOT, compiler="g++"):
         source = self.file("use.cpp", text)

@@ -1,4 +1,4 @@
-"""What makes the tables bars, compare, outcomes and odometry of scripts/measure fail.
+"""What makes the tables bars, compare, outcomes, odometry and owned of scripts/measure fail.
 
 WHISKER names a stand-in that records its arguments and prints one summary, which the real command made.
 """
@@ -77,6 +77,16 @@ class Status(Scripts):
     def test_a_comparison_of_robots_that_are_not_where_they_say_is_a_failure(self):
         self.answer(missions=4, off_goal={"value": 0.25, "low": 0, "high": 1})
         self.assertIn("compare: 90 robots are not at the goal", self.run_script("compare", 4, status=1).stderr)
+
+    def test_a_contact_of_a_robot_that_people_own_is_a_failure(self):
+        share = lambda value: {"value": value, "low": 0, "high": 1}
+        self.answer(missions=4, contact=share(0.25), truly_there=share(0.5), off_goal=share(0.25))
+        done = self.run_script("owned", 4, 1, "romi", "zumo", status=1)
+        self.assertIn("owned: 24 missions ended in contact", done.stderr)
+        self.assertEqual([row[0] for row in self.rows(done) if "gyro" not in row[0]], ["romi", "zumo"] * 3)
+        self.assertEqual({row[1].rsplit(", ", 1)[0] for row in self.rows(done) if row[0] == "romi"}, {"50, 25, 25"})
+        calls = self.folder.joinpath("whisker.calls").read_text().splitlines()
+        self.assertTrue(all(" --noise --to-size --robot " in call for call in calls), calls)
 
     def test_a_campaign_that_fails_is_named(self):
         self.file("whisker.status", "7")

@@ -38,6 +38,8 @@ std::string arguments(worlds::Kind kind, const worlds::Options& options);
 /// Follows the arguments in the name of a world for random robots.
 constexpr std::string_view kRandomRobots = " --robots random";
 bool has_random_robots(std::string_view world);
+/// Follows the arguments in the name of a world that is scaled to the robot of a file.
+constexpr std::string_view kToSize = " --to-size";
 /// "random 7": the robot that this seed draws, which `whisker campaign KIND --robots random --replay 7`
 /// drives.
 std::string random_robot_name(std::uint64_t seed);
