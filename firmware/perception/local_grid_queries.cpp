@@ -26,9 +26,10 @@ int32_t chord(int32_t radius, int32_t beside) noexcept {
 
 /// Directions from the course; 2^-14: ahead, 30 and 60 degrees to the left, the same to the right.
 constexpr int kWays = 5;
-constexpr struct {
+struct WayAhead {
   int32_t x, y;
-} kWay[kWays] = {{16384, 0}, {14189, 8192}, {8192, 14189}, {14189, -8192}, {8192, -14189}};
+};
+constexpr WayAhead kWay[kWays] = {{16384, 0}, {14189, 8192}, {8192, 14189}, {14189, -8192}, {8192, -14189}};
 
 }  // namespace
 

@@ -15,7 +15,7 @@ import slcan_bridge
 import whisker
 from whisker import KINDS, SCENARIOS, STATUS, Case, with_time_limit
 
-PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m")  # not on the bus
+PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m", "bend_rad", "pace_mps")  # not on the bus
 
 
 class OnABus(Case):

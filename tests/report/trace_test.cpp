@@ -37,7 +37,7 @@ TEST(Trace, without_records_is_its_header) {
   EXPECT_EQ(trace_csv(testing::log_of({}, {})),
             "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
             "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_"
-            "y_m,pressed,sigma_along_m,sigma_across_m,sigma_heading_rad\n");
+            "y_m,pressed,sigma_along_m,sigma_across_m,sigma_heading_rad,bend_rad,pace_mps\n");
 }
 
 TEST(Trace, writes_a_record_in_every_detail) {
@@ -67,6 +67,8 @@ TEST(Trace, writes_a_record_in_every_detail) {
   r.way_x_m = 2.05;
   r.way_y_m = -0.35;
   r.pressed = 5;
+  r.bend_rad = -0.0698;
+  r.pace_mps = 0.175;
   r.sigma = localization::PoseSigma{micrometres(20500), millimetres(110), Angle::turns(1, 4)};
   Scenario scenario;
   scenario.robot.rangefinders.max_range = millimetres(1500);
@@ -74,7 +76,7 @@ TEST(Trace, writes_a_record_in_every_detail) {
   EXPECT_EQ(split(trace_csv(testing::log_of(scenario, {r})), '\n').at(1),
             "12.340,1.234568,-0.500000,3.141593,1.2340,1.5000,0.0350,0.25000,-0.12346,skirting,same_side,"
             "7,1,1.0078,-8.0000,-1.00000,0.00006,0.25010,-0.00030,1.200000,-0.500000,3.250000,place,2.050000,"
-            "-0.350000,5,0.020500,0.110000,1.570796");
+            "-0.350000,5,0.020500,0.110000,1.570796,-0.06980,0.17500");
 }
 
 TEST(Trace, leaves_a_lost_range_empty) {
@@ -143,7 +145,7 @@ RC_GTEST_PROP(Trace, lets_a_judge_read_pose_and_speed_back, (int x, int y, int h
   r.heading_rad = heading / 1e7;
   r.v_left_mps = speed / 1e9;
   const auto cells = row_of(r);
-  RC_ASSERT(cells.size() == 29U);
+  RC_ASSERT(cells.size() == 31U);
   RC_ASSERT(std::fabs(std::stod(cells[1]) - r.x_m) <= 0.6e-6);
   RC_ASSERT(std::fabs(std::stod(cells[2]) - r.y_m) <= 0.6e-6);
   RC_ASSERT(std::fabs(std::stod(cells[3]) - r.heading_rad) <= 0.6e-6);
@@ -160,7 +162,7 @@ TEST(Trace, has_one_row_of_all_columns_for_each_tick_of_a_run) {
   const auto records = testing::garden_run(scenario);
   const std::vector<std::string> lines = split(trace_csv(testing::log_of(scenario, records)), '\n');
   ASSERT_EQ(lines.size(), records.size() + 2);
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) ASSERT_EQ(split(lines[i], ',').size(), 29U) << lines[i];
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) ASSERT_EQ(split(lines[i], ',').size(), 31U) << lines[i];
 }
 
 TEST(Trace, goes_into_a_file_as_it_is) {

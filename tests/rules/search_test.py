@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIDES = ROOT / "host/lab/rules/laws/sides.toml"
 STRAIGHT = ROOT / "host/lab/rules/laws/straight.toml"
 # One of its children is kept.
-SMALL = ("--base", SIDES, "--worlds", "u-trap", "--count", 5, "--seed", 62, "--generations", 2, "--children", 2, "--validate", 3)
+SMALL = ("--base", SIDES, "--worlds", "u-trap", "--count", 5, "--seed", 7, "--generations", 2, "--children", 2, "--validate", 3)
 
 
 class Search(Case):
@@ -42,7 +42,7 @@ class Search(Case):
         self.validation_is_a_comparison_in_other_worlds(told)
 
     def found_is_a_rule_base(self, text, digest):
-        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 62 to 71,\n")
+        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 7 to 16,\n")
         self.assertIn(f"this is {digest}.\n", text)
         self.assertEqual(sum(line.startswith("  [") and line.count('"') == 10 for line in text.splitlines()), 10)
         shown = whisker.whisker("rules", "show", "found.toml", "--svg", "found.svg", cwd=self.folder)
@@ -54,8 +54,8 @@ class Search(Case):
 
     def validation_is_a_comparison_in_other_worlds(self, told):
         validation = told["validation"]
-        self.assertEqual([told["first_seed"], told["last_seed"], validation["first_seed"], validation["last_seed"]], [62, 71, 72, 74])
-        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 72, "--count", 3, "--json", cwd=self.folder)
+        self.assertEqual([told["first_seed"], told["last_seed"], validation["first_seed"], validation["last_seed"]], [7, 16, 17, 19])
+        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 17, "--count", 3, "--json", cwd=self.folder)
         compared = json.loads(done.stdout)
         self.assertEqual(compared["b"]["rules_digest"], told["rules_digest"])
         for key in ("time_ratio", "path_ratio", "clearance_m_difference", "both_reach"):
