@@ -68,7 +68,7 @@ TEST_F(CanNodeTest, ATableOfABaseIsKeptOverAPowerCut) {
 /// Commands of the base's wheels in lockstep, or of the core in this process.
 class Drives : public CanNodeTest {
  protected:
-  static constexpr int kTicks = 600;
+  static constexpr int kTicks = 800;
   Drives() { scenario.robot.boundary.bend = Fitted::yes; }
   sim::Plant plant() { return {world.view(), robot_spec(scenario), {}, 1, scenario.start}; }
   std::vector<WheelSpeeds> through_the_chip() {

@@ -41,7 +41,8 @@ class Drives(Case):
             boundaries = self.distances(path)
             self.assertGreater(len(boundaries), 0, name)
             if name == "boundary_enclosed":
-                self.assertEqual([left for _, left in boundaries], ["closed loop"])
+                # A gap between the fence and a disc may end an earlier one.
+                self.assertEqual(boundaries[-1][1], "closed loop")
                 continue
             best = float("inf")
             for hit, left in ([float(text.removesuffix(" m")) for text in one] for one in boundaries):
