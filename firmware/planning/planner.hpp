@@ -57,6 +57,8 @@ struct NewLane {
 
 /// The planner's request and its reason.
 struct Decision {
+  [[gnu::always_inline]] Decision() noexcept = default;  // see GoalPlanner
+
   Manoeuvre manoeuvre;  ///< ManoeuvreKind::keep: continue
   Mode mode = Mode::idle;
   Why why = Why::none;
