@@ -6,6 +6,7 @@
 namespace whisker::fuzzy {
 
 /// The output terms, under their names in the source.
+// NOLINTBEGIN(readability-identifier-naming)
 namespace turn_terms {
 constexpr Q14 TRVB = Q14::ratio(-3, 2);  ///< turn right, very big
 constexpr Q14 TRB = Q14::ratio(-3, 4);
@@ -21,6 +22,7 @@ constexpr Q14 M = Q14::ratio(10, 10);
 constexpr Q14 B = Q14::ratio(14, 10);
 constexpr Q14 VB = Q14::ratio(17, 10);
 }  // namespace step_terms
+// NOLINTEND(readability-identifier-naming)
 
 constexpr RuleBase default_rules() noexcept {
   using namespace turn_terms;
