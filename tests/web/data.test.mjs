@@ -32,6 +32,8 @@ const TOLERANCES = {
   sigma_along_m: 6e-7,
   sigma_across_m: 6e-7,
   sigma_heading_rad: 6e-7,
+  bend_rad: 6e-5,
+  pace_mps: 6e-4,
 };
 const WORDS = {state: 'mode', why: 'why', guide: 'guide'};
 const BEAMS = ['left_m', 'front_m', 'right_m'];
