@@ -278,7 +278,8 @@ describe('the replay page', () => {
     const scenario = folder.at('false_clear.toml');
     whisker('world', 'discs', '--seed', 3, '--out', scenario);
     writeFileSync(scenario, `${readFileSync(scenario, 'utf8')}\n[noise]\nrange_false_clear = 0.9\n`);
-    folder.run('false_clear', scenario, '--planner', 'thesis');
+    const {outcome} = folder.run('false_clear', scenario, '--planner', 'thesis');
+    assert.equal(outcome, 'contact');
     const {page} = await openPage(folder.url('false_clear.html', '#t=99'));
     const found = await page.evaluate(() => {
       const {run} = window.whisker;
@@ -292,7 +293,10 @@ describe('the replay page', () => {
     });
     assert.ok(found > 0);
     await seek(page, found);
-    assert.match(await page.textContent('#table-says'), /It asked earlier readings/);
+    assert.match(
+      await page.textContent('#table-says'),
+      /^SA bends the course \d+° to the (left: right|right: left) is near\. It asked earlier readings, on which the beams agreed\.$/,
+    );
     assert.doesNotMatch(await page.textContent('#run'), /distance ahead, now/);
   });
 

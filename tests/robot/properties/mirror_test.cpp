@@ -64,6 +64,12 @@ void expect_mirrored(const Status& a, const Status& b) {
   RC_ASSERT(a.pose.heading == -b.pose.heading);
   RC_ASSERT(a.decision.mode == b.decision.mode);
   RC_ASSERT(a.decision.why == b.decision.why);
+  // The tick in which the table is asked of echoes.
+  if (a.decision.looked && a.decision.mode == planning::Mode::steering) {
+    RC_ASSERT(a.decision.inputs.bias == -b.decision.inputs.bias);
+    RC_ASSERT(a.decision.response.turn == -b.decision.response.turn);
+    RC_ASSERT(a.decision.response.step == b.decision.response.step);
+  }
   RC_ASSERT(a.health.fault == b.health.fault);
 }
 
