@@ -72,7 +72,7 @@ constexpr bool outlasts_a_stall(Duration x, const Params& p) noexcept {
 }
 
 // The thesis planner.
-constexpr Angle kBaseTurn = 30_deg;  ///< turn at SA = 1; also of the course that the response table bends
+constexpr Angle kBaseTurn = 30_deg;  ///< turn of the thesis planner's step at SA = 1
 constexpr Angle kDelta = 10_deg;     ///< deflection between two probes
 constexpr Length kLongestStep = 200_mm;
 constexpr Length kShortestStep = 20_mm;

@@ -24,8 +24,8 @@ struct Ways {
   Length left;  ///< the farther of the ways at 30 and 60 degrees
   Length ahead;
   Length right;
-  Length
-      nearest;  ///< to the nearest such cell that is not behind, or up to 8 % less; 60 m if none is in reach
+  /// To the nearest such cell that is not behind, or up to 8 % less; 60 m if none is in reach.
+  Length nearest;
 };
 
 /// Cells that count as obstacles.
@@ -98,18 +98,16 @@ class LocalGrid {
   int32_t suspects_along(const Vec& from, Angle heading, Length length, Length radius,
                          int32_t enough) const noexcept;
   /// The ways of a disc of this radius around `from`, each at most `horizon`. Cells that the disc
-  /// touches are met at their centres, and those abeam of a way are ignored. A mirrored world has mirrored
+  /// touches are met at their centres, and those abeam of a way are ignored. A mirrored grid has mirrored
   /// ways.
   Ways ways(const Vec& from, Angle course, Length horizon, Length radius) const noexcept;
   /// Calls f with the centre of each cell that along() counts, from `from`.
   template <class F>
-  void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f,
-                    Avoid avoid = Avoid::unclear) const {
+  void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f) const {
     const Point start = local(from);
     const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
     for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
       Row open = to_window(~clear_row(rows.row())) & stadium.columns(rows.row());
-      if (avoid == Avoid::suspect) open &= solid_row(rows.row());
       for (int32_t dx = kHalfCell - start.x; open != 0; open >>= 1, dx += kUnitsPerCell) {
         if ((open & 1U) != 0) f(Vec{length_of(dx), length_of(rows.offset(start.y))});
       }

@@ -5,16 +5,13 @@ namespace {
 
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
-constexpr int32_t kOneQ14 = 1 << 14;
-
-constexpr int32_t kOneQ7 = 1 << 7;
 constexpr int32_t kRootOfTwo = 181;  // 2^-7
 constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 
 /// Of a point in the first quadrant; up to 8 % too short.
 constexpr int32_t distance_of(int32_t x, int32_t y) noexcept {
   const int32_t longer = x < y ? y : x;
-  const int32_t diagonal = (x + y) * (kRootOfTwo / 2) / kOneQ7;
+  const int32_t diagonal = (x + y) * (kRootOfTwo / 2) / Q7::kOne;
   return longer < diagonal ? diagonal : longer;
 }
 
@@ -98,15 +95,15 @@ Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon, Length radiu
     const int32_t dy = rows.offset(start.y);
     for (int32_t dx = kHalfCell - start.x; solid != 0; solid >>= 1, dx += kUnitsPerCell) {
       if ((solid & 1U) == 0) continue;
-      const int32_t x = (dx * c + dy * s) / kOneQ14;
-      const int32_t y = (dy * c - dx * s) / kOneQ14;
+      const int32_t x = (dx * c + dy * s) / Q14::kOne;
+      const int32_t y = (dy * c - dx * s) / Q14::kOne;
       if (x >= 0) nearest = least(nearest, distance_of(x, y < 0 ? -y : y));
       // From there on, no way to the other side meets it: 1.2 is more than the secant of 30 degrees.
       const int first = y > aside ? 1 : y < -aside ? 3 : 0;
       const int end = y > aside ? 3 : kWays;
       for (int i = first; i < end; ++i) {
-        const int32_t along = (x * kWay[i].x + y * kWay[i].y) / kOneQ14;
-        const int32_t across = (y * kWay[i].x - x * kWay[i].y) / kOneQ14;
+        const int32_t along = (x * kWay[i].x + y * kWay[i].y) / Q14::kOne;
+        const int32_t across = (y * kWay[i].x - x * kWay[i].y) / Q14::kOne;
         const int32_t beside = across < 0 ? -across : across;
         if (along <= abeam() || beside >= wide + kCellCover || along >= free[i] + wide) continue;
         const int32_t rest = along - chord(wide, beside);

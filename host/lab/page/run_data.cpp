@@ -65,7 +65,6 @@ Json robot_data(const Params& p) {
           {"beams", beams},
           {"cell", metres(grid_cell(p))},
           {"base_turn", radians(derived::kBaseTurn)},
-          {"bends", p.boundary.bend == Fitted::yes},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
 }
 

@@ -35,8 +35,6 @@ export interface RobotInfo {
   offset: number;
   cell: number;
   base_turn: number;
-  /** The table bends the course of the map and boundary planners. */
-  bends: boolean;
   period: number;
 }
 

@@ -35,7 +35,5 @@ export function asksOfNow(run: Seen, tick: number): boolean {
   const [d, r] = [run.column('d')[tick], run.column('r')[tick]];
   const alike = (asked: number, read: number) => Math.abs(asked - read) < ALIKE;
   if (left !== null && right !== null && !alike(r, (MOST_R * (right - left)) / most)) return false;
-  if (front === null || alike(d, (MOST_D * front) / most)) return true;
-  // A parameter may select the mean of the three ranges.
-  return left !== null && right !== null && alike(d, (MOST_D * (left + front + right)) / 3 / most);
+  return front === null || alike(d, (MOST_D * front) / most);
 }

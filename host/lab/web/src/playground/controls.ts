@@ -58,9 +58,7 @@ export class Controls {
     }
     showMapKeys(new Set(play.runs.flatMap(({map}) => [...(map?.holds ?? [])])));
     if (!play.drivenByUser) {
-      element('course-key').hidden = !play.runs.some(
-        ({planner, info}) => planner === 'thesis' || info.robot.bends,
-      );
+      element('course-key').hidden = false;
       showPathKeys(new Set(play.runs.flatMap(({stretches, looks}) => stretches.map(({kind}) => looks.colours[kind])))); // prettier-ignore
     }
     element('original').hidden = own === null;

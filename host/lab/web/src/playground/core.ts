@@ -105,7 +105,6 @@ export class Core {
     this.robot = {
       radius, track, max_speed, min_range, max_range, offset, cell, period,
       side_angle: side * pi, cone: cone * pi, base_turn: turn * pi,
-      bends: true,
     }; // prettier-ignore
   }
 
