@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
+#include <vector>
 
 #include "tests/build/fixtures/arduino/Arduino.h"
 // The sketch itself needs none of these.
@@ -39,6 +41,12 @@ struct HcSr04 {
   }
 };
 HcSr04 sensor[3];
+
+struct Trigger {
+  int sensor;
+  std::uint64_t at_us;
+};
+std::vector<Trigger> triggered;
 
 int sensor_of(const std::uint8_t (&pins)[3], int pin) {
   for (int i = 0; i < 3; ++i) {
@@ -79,7 +87,9 @@ int digitalRead(std::uint8_t pin) {
 }
 void digitalWrite(std::uint8_t pin, std::uint8_t value) {
   const int i = sensor_of(kTrigger, pin);
-  if (i >= 0 && value == LOW) sensor[i].trigger();
+  if (i < 0 || value != LOW) return;
+  triggered.push_back({i, now_us});
+  sensor[i].trigger();
 }
 void attachInterrupt(std::uint8_t pin, void (*handler)(), int) { on_change[pin] = handler; }
 void HardwareSerial::begin(unsigned long) {}
@@ -103,7 +113,7 @@ class SketchSonarsTest : public testing::Test {
     std::map<RangeStatus, int> seen;
     for (int i = 0; i < ms; ++i) {
       for (int k = 0; k < 100; ++k) step();
-      sonars.poll();
+      if (i % between_polls_ms == 0) ping(sonars.take_turn(micros()));
       hal::RangeReadings all{};
       sonars.read(all);
       const hal::RangeReading& reading = all.beam[hal::kFront];
@@ -115,6 +125,7 @@ class SketchSonarsTest : public testing::Test {
   }
   HcSr04& front = sensor[hal::kFront];
   unsigned mm = 0;
+  int between_polls_ms = 1;
 
  private:
   std::uint8_t sequence_ = 255;
@@ -122,17 +133,23 @@ class SketchSonarsTest : public testing::Test {
 
 using Seen = std::map<RangeStatus, int>;
 
+std::set<RangeStatus> kinds(const Seen& seen) {
+  std::set<RangeStatus> all;
+  for (const auto& [status, times] : seen) all.insert(status);
+  return all;
+}
+
 TEST_F(SketchSonarsTest, MeasureWallsAndTellOpenGround) {
   front.metres = 0.5;
   pass(100);
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::ok, 10}}));
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::ok, 10}}));
   EXPECT_NEAR(mm, 500, 6);
   front.metres = 0;
   pass(100);
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::clear, 10}}));
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::clear, 10}}));
   front.metres = 0.3;
   pass(100);
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::ok, 10}}));
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::ok, 10}}));
 }
 
 TEST_F(SketchSonarsTest, ASensorThatIsUnpluggedProvesNothing) {
@@ -140,31 +157,59 @@ TEST_F(SketchSonarsTest, ASensorThatIsUnpluggedProvesNothing) {
   for (const bool floats : {false, true}) {
     front.high = floats;
     pass(100);
-    EXPECT_EQ(pass(510), (Seen{{RangeStatus::invalid, 10}})) << floats;
+    EXPECT_EQ(pass(600), (Seen{{RangeStatus::invalid, 10}})) << floats;
   }
 }
 
-TEST_F(SketchSonarsTest, AnEchoThatNeverEndsIsClearOnceAtMost) {
+TEST_F(SketchSonarsTest, AnEchoThatNeverEndsProvesNothing) {
   front.hangs_without_echo = true;
-  pass(100);
+  pass(60);
+  EXPECT_EQ(kinds(pass(300)), std::set{RangeStatus::invalid});
   front.metres = 0.3;
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::invalid, 10}}));
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::invalid, 10}}));
 }
 
 TEST_F(SketchSonarsTest, ARiseThatNoTriggerCausedIsNoAnswer) {
   front.rises_after = 5000;
-  pass(100);
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::invalid, 10}}));
+  front.metres = 0.2;
+  for (const int ms : {1, 8}) {
+    between_polls_ms = ms;
+    pass(100);
+    EXPECT_EQ(kinds(pass(600)), std::set{RangeStatus::invalid}) << ms;
+  }
 }
 
-TEST_F(SketchSonarsTest, ACloneThatEndsItsEchoLateIsHeardBetween) {
+TEST_F(SketchSonarsTest, ASensorThatEndsItsEchoAfterMoreThanARoundProvesNothingInOpenGround) {
   front.no_echo = 200000;
-  const Seen seen = pass(2040);
-  EXPECT_GE(seen.at(RangeStatus::clear), 7);
-  EXPECT_EQ(seen.count(RangeStatus::ok), 0U);
+  pass(100);
+  EXPECT_EQ(kinds(pass(600)), std::set{RangeStatus::invalid});
   front.metres = 0.3;
   pass(300);
-  EXPECT_EQ(pass(510), (Seen{{RangeStatus::ok, 10}}));
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::ok, 10}}));
+}
+
+TEST_F(SketchSonarsTest, EdgesSeenLateAfterAPauseProveNothing) {
+  front.metres = 0.5;
+  pass(100);
+  for (int i = 0; i < 60; ++i) {
+    pass(1);
+    if (front.high) break;
+  }
+  ASSERT_TRUE(front.high);
+  now_us += 45000;
+  EXPECT_EQ(pass(5), (Seen{{RangeStatus::invalid, 1}}));
+  EXPECT_EQ(pass(60), (Seen{{RangeStatus::ok, 1}}));
+}
+
+TEST_F(SketchSonarsTest, TakeTurnsOf20Milliseconds) {
+  triggered.clear();
+  pass(600);
+  ASSERT_GE(triggered.size(), 29U);
+  for (std::size_t i = 1; i < triggered.size(); ++i) {
+    EXPECT_EQ(triggered[i].sensor, (triggered[i - 1].sensor + 1) % 3);
+    EXPECT_GE(triggered[i].at_us - triggered[i - 1].at_us, 20000U);
+    EXPECT_LE(triggered[i].at_us - triggered[i - 1].at_us, 21000U);
+  }
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr Params my_robot() {
   p.rangefinders.side_angle = Angle::turns(375, 3600);
   p.rangefinders.cone = 36_deg;
   p.rangefinders.clear_range = 600_mm;
-  p.rangefinders.rate_hz = 20;
+  p.rangefinders.rate_hz = 16;
   p.rangefinders.latency = 50_ms;
   p.rangefinders.incidence = 40_deg;
   p.conditioning.stale_after = 250_ms;
@@ -28,22 +28,12 @@ constexpr Params my_robot() {
 }
 static_assert(check(my_robot()) == ParamFault::none, "the parameters do not fit: ask `whisker robot check`");
 
-enum Line : uint8_t { kSilent, kHigh, kEnded };
-volatile Line echo[3];                            // since the trigger
-volatile uint32_t echo_began[3], echo_ended[3];  // us
+hal::mcu::Sonars sonars;
 volatile int32_t counted[2];
 
 template <int kBeam>
 void on_echo() {
-  const uint32_t now = micros();
-  const bool high = digitalRead(kEcho[kBeam]) == HIGH;
-  if (high && echo[kBeam] == kSilent) {
-    echo_began[kBeam] = now;
-    echo[kBeam] = kHigh;
-  } else if (!high && echo[kBeam] == kHigh) {
-    echo_ended[kBeam] = now;
-    echo[kBeam] = kEnded;
-  }
+  sonars.on_edge(kBeam, digitalRead(kEcho[kBeam]) == HIGH, micros());
 }
 
 template <int kWheel>
@@ -52,54 +42,12 @@ void on_count() {
   counted[kWheel] = counted[kWheel] + (same ? 1 : -1);
 }
 
-// One sensor after another, so that none hears the ping of another. An HC-SR04 raises its echo line within 0.5
-// ms of the trigger, and lowers it when the echo returns or after 38 ms. A line that does not rise in time is
-// that of a sensor that is dead, unplugged or locked up, and proves nothing.
-class Sonars final : public hal::Rangefinders {
- public:
-  void poll() {
-    if (millis() - pinged_ms_ < 17) return;
-    take(active_);
-    active_ = (active_ + 1) % hal::kBeams;
-    echo[active_] = kSilent;
-    digitalWrite(kTrigger[active_], HIGH);
-    delayMicroseconds(10);
-    digitalWrite(kTrigger[active_], LOW);
-    triggered_us_ = micros();
-    pinged_ms_ = millis();
-  }
-  bool read(hal::RangeReadings& out) noexcept override {
-    for (int i = 0; i < hal::kBeams; ++i) {
-      out.beam[i] = latest_[i];
-      const uint32_t age = millis() - measured_ms_[i];
-      out.beam[i].age_ms = static_cast<uint8_t>(age < 255 ? age : 255);
-    }
-    return true;
-  }
-
- private:
-  void take(int beam) {
-    noInterrupts();
-    const Line line = echo[beam];
-    const uint32_t began = echo_began[beam], ended = echo_ended[beam];
-    interrupts();
-    const bool answered = line != kSilent && began - triggered_us_ < kAnswersWithinUs;
-    hal::RangeReading& reading = latest_[beam];
-    reading.status = hal::RangeStatus::invalid;
-    if (answered) reading.status = line == kEnded ? hal::RangeStatus::ok : hal::RangeStatus::clear;
-    reading.mm = static_cast<uint16_t>((ended - began) * 17 / 100);  // there and back at 340 m/s
-    reading.sequence = static_cast<uint8_t>((reading.sequence + 1) % 16);
-    measured_ms_[beam] = pinged_ms_;
-  }
-
-  static constexpr uint32_t kAnswersWithinUs = 1000;
-  static constexpr hal::RangeReading kNone{0, hal::RangeStatus::stale, 255, 0};
-  hal::RangeReading latest_[hal::kBeams] = {kNone, kNone, kNone};
-  uint32_t measured_ms_[hal::kBeams] = {};
-  uint32_t pinged_ms_ = 0;
-  uint32_t triggered_us_ = 0;
-  int active_ = 0;
-};
+void ping(int beam) {
+  if (beam == hal::mcu::Sonars::kNone) return;
+  digitalWrite(kTrigger[beam], HIGH);
+  delayMicroseconds(10);
+  digitalWrite(kTrigger[beam], LOW);
+}
 
 struct Encoders {
   bool read(hal::EncoderCounts& out) noexcept {
@@ -131,7 +79,6 @@ struct Timer final : hal::Clock {
 constexpr Params kRobot = my_robot();
 constexpr hal::mcu::MotorParams kMotor{4000, 5000, 5, 100000};  // 0.4 m/s at full duty
 
-Sonars sonars;
 Encoders encoders;
 Motors motors;
 Timer timer;
@@ -164,7 +111,7 @@ void setup() {
 }
 
 void loop() {
-  sonars.poll();
+  ping(sonars.take_turn(micros()));
   if (static_cast<int32_t>(millis() - next_ms) < 0) return;
   next_ms += 10;
   static planning::Why told = planning::Why::none;
