@@ -39,6 +39,8 @@ struct BeamParams {
   Angle cone;       ///< full width, at least 1 degree
 };
 
+enum class Fitted : int32_t { no, yes };
+
 struct RangefinderParams {
   Angle side_angle = 30_deg;  ///< axis of the left beam from straight ahead; the right beam is mirrored
   Angle cone = 25_deg;        ///< full width
@@ -46,10 +48,11 @@ struct RangefinderParams {
   Length max_range = 2000_mm;  ///< also the distance that a clear reading stands for
   Length offset = 0_mm;        ///< of each apex from the centre, along the axis of its beam
   int32_t rate_hz = 50;
-  Duration latency = 20_ms;  ///< from the measurement to its arrival
-  Length clear_range;        ///< readings mark no ground beyond it as free; zero: max_range
-  Angle incidence = 90_deg;  ///< a flat wall seen beyond this angle from its normal may give no echo
-  BeamParams beams[3];       ///< indexed by hal::Beam
+  Duration latency = 20_ms;   ///< from the measurement to its arrival
+  Length clear_range;         ///< readings mark no ground beyond it as free; zero: max_range
+  Angle incidence = 90_deg;   ///< a flat wall seen beyond this angle from its normal may give no echo
+  BeamParams beams[3];        ///< indexed by hal::Beam
+  Fitted sonar = Fitted::no;  ///< for a board with drivers of both: three HC-SR04 are fitted
 };
 
 /// How several readings become one. The enumeration has four bytes like every parameter (params/words.cpp).
@@ -62,8 +65,6 @@ struct ConditioningParams {
   Consensus consensus = Consensus::agreeing;
   Duration stale_after = 100_ms;  ///< no new measurement for this long: stale
 };
-
-enum class Fitted : int32_t { no, yes };
 
 struct BoundaryParams {
   Length guard_margin = 4_mm;    ///< clearance around the body that the guard keeps at every tick
@@ -247,6 +248,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.choice("straight_walls", p.walls.straight, kBoolean, 2);
   f.number("wall_direction_deg", p.walls.direction, Angle{}, 90_deg);
   f.choice("bend_course", p.boundary.bend, kBoolean, 2);
+  f.choice("sonar", p.rangefinders.sonar, kBoolean, 2);
 }
 
 /// The keys that describe the hardware, so that whoever builds a robot must set them: their defaults are

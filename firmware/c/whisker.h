@@ -120,7 +120,8 @@ enum whisker_param {
   WHISKER_PARAM_GUARD_ASSIST,                 /* choice; 1; 0 to 1 */
   WHISKER_PARAM_STRAIGHT_WALLS,               /* choice; 0; 0 to 1 */
   WHISKER_PARAM_WALL_DIRECTION,               /* 2^-32 turn; 0; 0 to 1073741824 */
-  WHISKER_PARAM_BEND_COURSE                   /* choice; 1; 0 to 1 */
+  WHISKER_PARAM_BEND_COURSE,                  /* choice; 1; 0 to 1 */
+  WHISKER_PARAM_SONAR                         /* choice; 0; 0 to 1 */
   /* params:end */
 };
 

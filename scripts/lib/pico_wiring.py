@@ -19,10 +19,11 @@ GP16 GP17 GND GP18 GP19 GP20 GP21 GND GP22 RUN GP26 GP27 GND GP28 VREF 3V3 3V3_E
 
 # Power: (part, terminal, name of the Pico's pin).
 POWER = (
-    ("all sensors, gyro", "VIN", "3V3"),
+    ("VL53L0X, gyro", "VIN", "3V3"),
     ("left encoder", "VCC", "3V3"),
     ("right encoder", "VCC", "3V3"),
     ("battery, 5 V", "+", "VSYS"),
+    ("HC-SR04", "VCC", "VSYS"),
     ("everything", "GND", "GND"),
 )
 COLOURS = ("#c0392b", "#2471a3", "#1e8449", "#9a7d0a", "#6c3483", "#b9770e", "#117a65", "#566573")

@@ -3,27 +3,51 @@
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
 import {Drive} from '../../host/harness/pico/drive.mjs';
-import {ROBOT, generated, robotWith, world} from './worlds.mjs';
+import {ROBOT, SONAR, generated, robotWith, world} from './worlds.mjs';
 
 const MOST_STACK = 3072;
 const MOST_CYCLES = 1_250_000; // a period at 125 MHz
 const FIRST_COMMAND_MS = 100;
 const LONGEST_MS = 300000;
 
+const TURN_MS = 19.9;
+const LONGEST_TURN_MS = 30; // it waits for the end of a tick
+const DRIVES_MS = 3000;
+
 const figures = [];
+
+/** Since the parameters hold, one sonar after another has pinged. */
+function takesTurns(sonars, end) {
+  const pings = sonars
+    .flatMap(({pings}, beam) => pings.map((nanos) => ({ms: nanos / 1e6, beam})))
+    .filter(({ms}) => ms > DRIVES_MS)
+    .sort((a, b) => a.ms - b.ms);
+  pings.slice(1).forEach(({ms, beam}, i) => {
+    const turn = ms - pings[i].ms;
+    assert.equal(beam, (pings[i].beam + 1) % 3);
+    assert.ok(turn >= TURN_MS && turn < LONGEST_TURN_MS, `a turn of ${turn} ms`);
+  });
+  figures.push(`a turn of the sonars: ${((end - DRIVES_MS) / pings.length).toFixed(1)} ms`);
+}
 
 describe('the image of the Pico', () => {
   const robots = [
     ['discs', ROBOT],
     ['u_trap', ROBOT],
     ['room', ROBOT],
+    ['discs', SONAR, ', with HC-SR04'],
   ];
   // At night, also a gyro, and worlds of the generator.
-  if (process.env.WHISKER_LONG) robots.push(['discs', robotWith('gyro = true\nbumper = true\n')]);
+  const FULL = ', with a gyro and a bumper';
+  if (process.env.WHISKER_LONG)
+    robots.push(
+      ['discs', robotWith('gyro = true\nbumper = true\n'), FULL],
+      ['room', SONAR, ', with HC-SR04'],
+    );
   for (const kind of process.env.WHISKER_LONG ? ['discs', 'u-trap', 'rooms'] : [])
     for (const seed of [1, 2, 3]) robots.push([generated(kind, seed), ROBOT]);
-  for (const [name, robot] of robots) {
-    test(`drives to the goal: ${name}${robot === ROBOT ? '' : ', with a gyro and a bumper'}`, () => {
+  for (const [name, robot, extra = ''] of robots) {
+    test(`drives to the goal: ${name}${extra}`, () => {
       const drive = new Drive([world(name), '--robot', robot]);
       try {
         let running = false;
@@ -38,7 +62,8 @@ describe('the image of the Pico', () => {
         assert.equal(verdict.contact, false);
         assert.ok(verdict.distance_m < 0.1, `${verdict.distance_m} m from the goal`);
         assert.equal(verdict.difference, '');
-        assert.equal(verdict.turned_by_gyro, robot !== ROBOT);
+        assert.equal(verdict.turned_by_gyro, extra === FULL);
+        if (robot === SONAR) takesTurns(drive.body.rangers, drive.ms);
         assert.ok(verdict.answers > 500);
         assert.deepEqual(drive.chip.sins, []);
         assert.deepEqual(drive.chip.faults, []);
@@ -49,7 +74,7 @@ describe('the image of the Pico', () => {
         assert.ok(drive.firstCommandMs < FIRST_COMMAND_MS, `${drive.firstCommandMs} ms to the first command`);
         const mean = drive.body.ticks.reduce((sum, cycles) => sum + cycles, 0) / drive.body.ticks.length;
         figures.push(
-          `${name}: ${verdict.answers} answers alike, tick ${Math.round(mean)} cycles, worst ${worst} (${(worst / 125000).toFixed(1)} ms), stack ${drive.stack} bytes, first command after ${drive.firstCommandMs} ms`,
+          `${name}${extra}: ${verdict.answers} answers alike, tick ${Math.round(mean)} cycles, worst ${worst} (${(worst / 125000).toFixed(1)} ms), stack ${drive.stack} bytes, first command after ${drive.firstCommandMs} ms`,
         );
       } finally {
         drive.close();

@@ -6,9 +6,10 @@ import {describe, test} from 'node:test';
 import {Chip} from '../../host/harness/pico/chip.mjs';
 import {Drive} from '../../host/harness/pico/drive.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
-import {ROBOT, robotWith, world} from './worlds.mjs';
+import {ROBOT, SONAR, robotWith, world} from './worlds.mjs';
 
 const MOVES_UM_S = 20000;
+const DRIVES_UM_S = 100000;
 /** By day, one fault of a kind; with WHISKER_LONG, all. */
 const LONG = Boolean(process.env.WHISKER_LONG);
 const atNight = LONG ? test : () => {};
@@ -41,6 +42,12 @@ function standstill(drive, ms) {
 }
 
 const sensor = (beam, fault) => (drive) => (drive.body.rangers[beam].fault = fault);
+/** Its cable is cut on the way, while its echo line is high. */
+const cutOff = (beam) => (drive) => {
+  const ranger = drive.body.rangers[beam];
+  assert.ok(drive.until(20000, ({speeds}) => ranger.high && speeds.every((speed) => speed > DRIVES_UM_S)));
+  ranger.fault = 'unplugged';
+};
 const encoder = (wheel, fault) => (drive) => (drive.body.encoders[wheel].fault = fault);
 
 // What breaks, the fault that it ends in, and the time in ms within which the wheels stand for good.
@@ -62,6 +69,17 @@ const broken = [
   ['a motor with swapped wires', (drive) => (drive.body.motors.swapped[1] = true), 'wheel_runaway', 1200],
   ['motors without power', (drive) => (drive.body.motors.stalled = [true, true]), 'wheels_stalled', 1200],
   ['a stalled motor', (drive) => (drive.body.motors.stalled[0] = true), 'wheels_stalled', 1200],
+  ['an HC-SR04 that is cut off on the way', cutOff(1), 'range_lost', 900, SONAR],
+  ['an HC-SR04 whose echo line is held high', sensor(0, 'held'), 'range_lost', 900, SONAR],
+  ['an HC-SR04 that locks up after a ping', sensor(1, 'locked'), 'range_lost', 900, SONAR],
+  ['an HC-SR04 without its trigger', sensor(2, 'deaf'), 'range_lost', 900, SONAR],
+  [
+    'all HC-SR04 without power',
+    (drive) => drive.body.rangers.forEach((ranger) => (ranger.fault = 'unplugged')),
+    'range_lost',
+    900,
+    SONAR,
+  ],
 ];
 
 const BY_DAY = [
@@ -70,12 +88,17 @@ const BY_DAY = [
   'a dead encoder',
   'a stalled motor',
   'a motor with swapped wires',
+  'an HC-SR04 that is cut off on the way',
+  'an HC-SR04 whose echo line is held high',
+  'an HC-SR04 that locks up after a ping',
 ];
 
 describe('of a driving robot', () => {
-  for (const [what, breaks, fault, within] of broken.filter(([what]) => LONG || BY_DAY.includes(what))) {
+  for (const [what, breaks, fault, within, robot] of broken.filter(
+    ([what]) => LONG || BY_DAY.includes(what),
+  )) {
     test(`${what}: ${fault}`, () => {
-      const drive = moving();
+      const drive = moving(robot);
       try {
         breaks(drive);
         const stood = standstill(drive, within + 1500);
@@ -265,6 +288,15 @@ describe('at the start', () => {
     const drive = starts(() => {});
     try {
       drive.body.rangers[0].fault = 'unplugged';
+      assert.ok(drive.until(6000, ({fault}) => fault === 'range_lost'));
+      assert.ok(drive.rig.verdict().path_m < 1e-3);
+    } finally {
+      drive.close();
+    }
+  });
+  test('HC-SR04 before the parameters say so: range_lost, and no motion', () => {
+    const drive = new Drive([world('discs'), '--robot', SONAR, '--listen']);
+    try {
       assert.ok(drive.until(6000, ({fault}) => fault === 'range_lost'));
       assert.ok(drive.rig.verdict().path_m < 1e-3);
     } finally {

@@ -11,6 +11,7 @@ import {ROOT} from '../../host/harness/pico/paths.mjs';
 
 const PAGE = readFileSync(join(ROOT, 'docs/build-a-pico-robot.md'), 'utf8');
 const BETWEEN_MS = 2000;
+const atNight = process.env.WHISKER_LONG ? test : () => {};
 const TRIES = 4; // on a computer that is slower than the robot
 
 /** What each of them says. */
@@ -23,7 +24,11 @@ const SAYS = {
 };
 
 /** `watch --nodes` of "build/host/whisker bench watch --nodes --tty $CABLE". */
-const what = (line) => line.split(' ').slice(2, line.includes('--nodes') ? 4 : 3).join(' ');
+const what = (line) =>
+  line
+    .split(' ')
+    .slice(2, line.includes('--nodes') ? 4 : 3)
+    .join(' ');
 
 async function said(command) {
   const [program, ...words] = command.split(' ');
@@ -32,9 +37,12 @@ async function said(command) {
   return stdout + stderr;
 }
 
-test('the commands of the first evening', {timeout: 600000}, async () => {
-  const block = /<!-- evening:begin -->\n```\n([^]*?)```/.exec(PAGE)[1].trim().split('\n');
-  const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty'], {stdio: ['ignore', 'pipe', 'ignore']});
+const block = (name) =>
+  new RegExp(`<!-- ${name}:begin -->\n\`\`\`\n([^]*?)\`\`\``).exec(PAGE)[1].trim().split('\n');
+
+/** With a robot behind a pseudo terminal, by these words of scripts/pico. */
+async function evening(words, lines, says) {
+  const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty', ...words], {stdio: ['ignore', 'pipe', 'ignore']});
   try {
     let cable = null;
     for await (const line of createInterface({input: robot.stdout})) {
@@ -42,20 +50,29 @@ test('the commands of the first evening', {timeout: 600000}, async () => {
       if (cable !== null) break;
     }
     assert.ok(cable);
-    assert.deepEqual(
-      block.map(what),
-      Object.keys(SAYS),
-    );
-    for (const line of block) {
+    for (const line of lines) {
       const command = line.replace('$CABLE', cable);
       let text = '';
-      for (let i = 0; i < TRIES && !SAYS[what(line)].test(text); i++) {
+      for (let i = 0; i < TRIES && !says[what(line)].test(text); i++) {
         await sleep(BETWEEN_MS * (i + 1));
         text = await said(command);
       }
-      assert.match(text, SAYS[what(line)], command);
+      assert.match(text, says[what(line)], command);
     }
   } finally {
     robot.kill('SIGINT');
   }
+}
+
+test('the commands of the first evening', {timeout: 600000}, async () => {
+  const lines = block('evening');
+  assert.deepEqual(lines.map(what), Object.keys(SAYS));
+  await evening([], lines, SAYS);
+});
+
+atNight('with HC-SR04', {timeout: 600000}, async () => {
+  const words = 'tests/pico/worlds/discs.toml host/robots/pico-sonar.toml';
+  assert.ok(PAGE.includes(words));
+  const lines = [...block('sonar'), block('evening').at(-1)];
+  await evening(words.split(' '), lines, {...SAYS, set: /sonar: false -> true/});
 });

@@ -5,6 +5,7 @@ import {join} from 'node:path';
 import {ROOT} from '../../host/harness/pico/paths.mjs';
 
 export const ROBOT = join(ROOT, 'host/robots/pico.toml');
+export const SONAR = join(ROOT, 'host/robots/pico-sonar.toml');
 /** A world of this folder, or a file. */
 export const world = (name) => (name.includes('/') ? name : join(ROOT, `tests/pico/worlds/${name}.toml`));
 

@@ -1,8 +1,10 @@
 target_sources(whisker_board PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../common/sonars.cpp
   ${CMAKE_CURRENT_LIST_DIR}/boot2.cpp
   ${CMAKE_CURRENT_LIST_DIR}/clock.cpp
   ${CMAKE_CURRENT_LIST_DIR}/divider.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/echo_lines.cpp
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
   ${CMAKE_CURRENT_LIST_DIR}/flash_storage.cpp
   ${CMAKE_CURRENT_LIST_DIR}/gyro.cpp

@@ -52,6 +52,7 @@ void set_up_pins() noexcept {
   make_output(kLed, false);
   make_output(kTick, false);
   for (const Gpio pin : kEncoders) connect(pin, Function::pio0, Pull::up);
+  for (const Gpio pin : kEchoes) connect(pin, Function::sio, Pull::down);
   for (const Gpio pin : kBumpers) connect(pin, Function::sio, Pull::up);
   connect(kButton, Function::sio, Pull::up);
   connect(kI2cData, Function::i2c, Pull::up);

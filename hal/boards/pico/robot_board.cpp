@@ -3,6 +3,7 @@
 #include "hal/boards/common/patience.hpp"
 #include "hal/boards/pico/clock.hpp"
 #include "hal/boards/pico/image.hpp"
+#include "hal/boards/pico/interrupts.hpp"
 #include "hal/boards/pico/pins.hpp"
 #include "hal/boards/pico/reg/rosc.hpp"
 
@@ -50,7 +51,11 @@ void RobotBoard::refuse() noexcept {
 
 void RobotBoard::adopt(const Params& params) noexcept {
   wheels_.adopt(motor_of(params), motor_of(params));
-  sensors_.adopt(params.gyro);
+  const bool sonar = params.rangefinders.sonar == Fitted::yes;
+  const Uninterrupted uninterrupted;
+  sensors_.adopt(params.gyro, !sonar);
+  echoes_.adopt(sonar);
+  fitted_.choose(sonar ? echoes_.sonars() : sensors_.rangers());
 }
 
 void RobotBoard::watch() noexcept {
@@ -64,6 +69,7 @@ void RobotBoard::poll() noexcept {
   const uint32_t now = ticker_.now_ms();
   bumper_.poll(now);
   button_.poll(now);
+  echoes_.poll();
   sensors_.collect(troubles_);
   encoders_.collect(troubles_);
   troubles_.count(Trouble::line_bytes_lost, line_.collect_lost());
@@ -98,8 +104,10 @@ extern "C" {
 void millisecond_interrupt() noexcept;
 void line_interrupt() noexcept;
 void bus_interrupt() noexcept;
+void edge_interrupt() noexcept;
 
 void millisecond_interrupt() noexcept { whisker::hal::pico::interrupted->on_millisecond(); }
 void line_interrupt() noexcept { whisker::hal::pico::interrupted->on_line_interrupt(); }
 void bus_interrupt() noexcept { whisker::hal::pico::interrupted->on_bus_interrupt(); }
+void edge_interrupt() noexcept { whisker::hal::pico::interrupted->on_edge_interrupt(); }
 }

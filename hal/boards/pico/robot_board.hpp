@@ -2,6 +2,7 @@
 
 #include "hal/boards/common/governed_wheels.hpp"
 #include "hal/boards/common/schedule.hpp"
+#include "hal/boards/pico/echo_lines.hpp"
 #include "hal/boards/pico/encoders.hpp"
 #include "hal/boards/pico/flash_storage.hpp"
 #include "hal/boards/pico/led.hpp"
@@ -47,10 +48,10 @@ class RobotBoard {
   /// Differs from that of the last start: noise of the ring oscillator.
   uint16_t boot_number() noexcept;
 
-  Rangefinders& rangefinders() noexcept { return sensors_.rangers(); }
+  Rangefinders& rangefinders() noexcept { return fitted_; }
   hal::Gyro& gyro() noexcept { return sensors_.gyro(); }
   Drive& drive() noexcept { return wheels_; }
-  /// The speed controllers and the gyro follow these parameters. Only while the wheels stand.
+  /// Rangefinders, gyro and the speed controllers follow these parameters. Only while the wheels stand.
   void adopt(const Params& params) noexcept;
   Bumper& bumper() noexcept { return bumper_; }
   hal::Button& button() noexcept { return button_; }
@@ -62,12 +63,26 @@ class RobotBoard {
   void on_millisecond() noexcept;
   void on_line_interrupt() noexcept { line_.on_interrupt(); }
   void on_bus_interrupt() noexcept { sensors_.on_interrupt(); }
+  void on_edge_interrupt() noexcept { echoes_.on_interrupt(); }
 
  private:
+  /// The rangefinders that the parameters say are fitted.
+  class FittedRangers final : public Rangefinders {
+   public:
+    explicit FittedRangers(Rangefinders& first) noexcept : rangers_(&first) {}
+    void choose(Rangefinders& rangers) noexcept { rangers_ = &rangers; }
+    bool read(RangeReadings& out) noexcept override { return rangers_->read(out); }
+
+   private:
+    Rangefinders* rangers_;
+  };
+
   Troubles troubles_;
   Ticker ticker_;
   Line line_;
   SensorBus sensors_;
+  EchoLines echoes_;
+  FittedRangers fitted_{sensors_.rangers()};
   Motors motors_;
   Encoders encoders_;
   Wheels wheels_{motor_of(kRobotParams), motor_of(kRobotParams), motors_, encoders_, ticker_};

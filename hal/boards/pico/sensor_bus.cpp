@@ -10,9 +10,11 @@ void SensorBus::start(uint32_t now_ms) noexcept {
   bus_.start();
 }
 
-void SensorBus::adopt(const GyroParams& gyro) noexcept {
-  const Uninterrupted uninterrupted;
+void SensorBus::adopt(const GyroParams& gyro, bool ranged) noexcept {
   gyro_.adopt(gyro);
+  const uint8_t first = ranged ? 0 : kGyro;
+  if (first != first_) rangers_.start(now_ms_);
+  first_ = first;
 }
 
 void SensorBus::collect(Troubles& troubles) noexcept {
@@ -31,7 +33,7 @@ void SensorBus::on_millisecond() noexcept {
     bus_.recover();
     fail();
   }
-  serve(0);
+  serve(first_);
 }
 
 /// From this turn on, until a transfer begins or all have had theirs.

@@ -14,8 +14,9 @@ class SensorBus {
   void start(uint32_t now_ms) noexcept;
   /// Adds what has failed since the last call.
   void collect(Troubles& troubles) noexcept;
-  /// What the parameters say of the gyro.
-  void adopt(const GyroParams& gyro) noexcept;
+  /// What the parameters say of the gyro. ranged: the rangefinders are on this bus; without, their reset pins
+  /// are left low. While no handler runs.
+  void adopt(const GyroParams& gyro, bool ranged) noexcept;
 
   Rangers& rangers() noexcept { return rangers_; }
   Gyro& gyro() noexcept { return gyro_; }
@@ -38,6 +39,7 @@ class SensorBus {
   uint32_t now_ms_ = 0;
   uint32_t begun_ms_ = 0;
   uint8_t turn_ = 0;
+  uint8_t first_ = 0;  // turn of a millisecond
   bool busy_ = false;
 };
 

@@ -17,6 +17,7 @@ extern const uint8_t __image_end[];
 void millisecond_interrupt() noexcept;
 void line_interrupt() noexcept;
 void bus_interrupt() noexcept;
+void edge_interrupt() noexcept;
 }
 
 namespace whisker::hal::pico {
@@ -47,6 +48,7 @@ constexpr Vectors vectors() noexcept {
   for (Handler& handler : v.interrupt) handler = stand_still;
   v.exception[0] = reset;
   v.interrupt[static_cast<int>(Interrupt::timer0)] = millisecond_interrupt;
+  v.interrupt[static_cast<int>(Interrupt::io_bank0)] = edge_interrupt;
   v.interrupt[static_cast<int>(Interrupt::uart0)] = line_interrupt;
   v.interrupt[static_cast<int>(Interrupt::i2c0)] = bus_interrupt;
   v.image = {ImageHeader::kMagic, __image_end, UINT32_MAX};

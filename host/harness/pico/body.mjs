@@ -1,4 +1,5 @@
 // What is soldered to the pins of a robot: sensors, motors, encoders, button. The simulator says what they see.
+import {HcSr04} from './hcsr04.mjs';
 import {I2cBus} from './i2c.mjs';
 import {Mpu6050} from './mpu6050.mjs';
 import {Vl53l0x} from './vl53l0x.mjs';
@@ -6,7 +7,8 @@ import {Vl53l0x} from './vl53l0x.mjs';
 export const PINS = {
   data: 4,
   clock: 5,
-  awake: [6, 7, 8],
+  awake: [6, 7, 8], // of an HC-SR04: TRIG
+  echoes: [2, 3, 9],
   encoders: [10, 12],
   bumpers: [14, 15],
   motors: [16, 18],
@@ -98,12 +100,15 @@ export class Quadrature {
 }
 
 export class Body {
-  constructor(chip) {
+  /** sonar: three HC-SR04 instead of three VL53L0X. */
+  constructor(chip, sonar = false) {
     this.chip = chip;
     this.bus = chip.attach(new I2cBus(chip, 0, {data: PINS.data, clock: PINS.clock}));
-    this.rangers = PINS.awake.map((pin) => chip.attach(new Vl53l0x(chip, pin)));
+    this.rangers = PINS.awake.map((pin, beam) =>
+      chip.attach(sonar ? new HcSr04(chip, pin, PINS.echoes[beam]) : new Vl53l0x(chip, pin)),
+    );
     this.gyro = chip.attach(new Mpu6050());
-    this.bus.devices.push(...this.rangers, this.gyro);
+    this.bus.devices.push(...(sonar ? [] : this.rangers), this.gyro);
     this.motors = chip.attach(new MotorDriver());
     this.encoders = PINS.encoders.map((pin) => chip.attach(new Quadrature(pin)));
     this.sequences = [-1, -1, -1];

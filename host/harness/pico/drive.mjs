@@ -16,11 +16,12 @@ export class Drive {
   takesBytes = null;
   /** Of the simulator's last line. */
   now = {ordered: false, outcome: 'none', fault: 'none', base: 'off_bus', speeds: [0, 0], contact: false};
-  /** prepare(chip): before the power comes. */
+  /** prepare(chip): before the power comes. The sensors are those of the robot's file. */
   constructor(rigArguments, {image = IMAGE, seed = 1, prepare = () => {}} = {}) {
     this.chip = new Chip({seed});
     this.chip.flash.load(readFileSync(image));
-    this.body = new Body(this.chip);
+    const robot = rigArguments[rigArguments.indexOf('--robot') + 1];
+    this.body = new Body(this.chip, /^sonar = true/m.test(readFileSync(robot, 'utf8')));
     this.rig = new Rig(rigArguments);
     prepare(this.chip);
     this.chip.powerOn();

@@ -1,4 +1,4 @@
-// usage: node host/harness/pico/live.mjs WORLD
+// usage: node host/harness/pico/live.mjs WORLD [ROBOT]
 //
 // The robot in a world, in real time. Its cable is file descriptor 3, which does not block; scripts/pico opens it. A line
 // `button` or `hold` on standard input presses the button, briefly or for 1.5 s.
@@ -14,7 +14,8 @@ const LONGEST_MS = 50;
 const BRIEF_MS = 200;
 const HELD_MS = 1500;
 
-const drive = new Drive([process.argv[2], '--robot', join(ROOT, 'host/robots/pico.toml'), '--listen'], {
+const [world, robot = join(ROOT, 'host/robots/pico.toml')] = process.argv.slice(2);
+const drive = new Drive([world, '--robot', robot, '--listen'], {
   seed: Date.now() & 0xffffffff,
 });
 const buffer = Buffer.alloc(4096);

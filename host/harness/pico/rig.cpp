@@ -65,6 +65,11 @@ sim::RobotSpec body_of(const Scenario& scenario, double full_speed_mps) {
   sim::RobotSpec spec = robot_spec(scenario);
   spec.period_s = 0.001;
   spec.max_speed = full_speed_mps;
+  if (scenario.robot.rangefinders.sonar == Fitted::yes) {
+    // The board says when they measure.
+    spec.rate_hz = 1000;
+    spec.latency_s = 0;
+  }
   return spec;
 }
 
