@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {describe, test} from 'node:test';
+import {PINS} from '../../host/harness/pico/body.mjs';
 import {Chip} from '../../host/harness/pico/chip.mjs';
 import {Drive} from '../../host/harness/pico/drive.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
@@ -14,6 +15,10 @@ const DRIVES_UM_S = 100000;
 const LONG = Boolean(process.env.WHISKER_LONG);
 const atNight = LONG ? test : () => {};
 const LOOP = 0x20030000;
+/** Of IO_BANK0: what the handler of the pins acknowledges. */
+const INTR0 = 0xf0;
+const PROC0_INTE0 = 0x100;
+const MOST_LATE_NS = 10000; // 2 mm
 
 /** A robot that has begun to move. */
 function moving(robot = ROBOT) {
@@ -121,6 +126,35 @@ describe('of a driving robot', () => {
       assert.equal(drive.body.bus.heldFor, 0);
       drive.body.rangers.forEach((ranger, beam) => assert.ok(ranger.measurements > before[beam] + 4));
       assert.equal(drive.now.fault, 'none');
+    } finally {
+      drive.close();
+    }
+  });
+  test('edges of echo lines are timed while the bus of the gyro is freed', () => {
+    const drive = moving(robotWith('gyro = true\n', '', SONAR));
+    try {
+      const {mcu} = drive.chip;
+      const echo = mcu.gpio[PINS.echoes[0]];
+      const late = [];
+      let edge = null;
+      mcu.gpio[PINS.clock].addListener(() => {
+        edge ??= mcu.clock.nanos;
+        echo.setInputValue(!echo.inputValue);
+      });
+      const io = mcu.peripherals[0x40014];
+      const store = io.writeUint32Atomic;
+      io.writeUint32Atomic = (offset, value, kind) => {
+        if (offset >= INTR0 && offset < PROC0_INTE0 && edge !== null) {
+          late.push(mcu.clock.nanos - edge);
+          edge = null;
+        }
+        store(offset, value, kind);
+      };
+      drive.body.bus.hold(Infinity);
+      drive.until(300, () => false);
+      assert.ok(late.length > 20, `${late.length} edges`);
+      const worst = Math.max(...late);
+      assert.ok(worst < MOST_LATE_NS, `${worst} ns late`);
     } finally {
       drive.close();
     }

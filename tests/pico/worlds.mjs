@@ -10,10 +10,10 @@ export const SONAR = join(ROOT, 'host/robots/pico-sonar.toml');
 export const world = (name) => (name.includes('/') ? name : join(ROOT, `tests/pico/worlds/${name}.toml`));
 
 let made = 0;
-/** A file of the Pico robot with these lines in front, or with a line of it replaced. */
-export function robotWith(lines, replaced = '') {
+/** A file of the Pico robot, or of another one, with these lines in front, or with a line of it replaced. */
+export function robotWith(lines, replaced = '', robot = ROBOT) {
   const file = join(tmpdir(), `whisker-pico-${process.pid}-${++made}.toml`);
-  const text = readFileSync(ROBOT, 'utf8');
+  const text = readFileSync(robot, 'utf8');
   writeFileSync(file, replaced === '' ? lines + text : text.replace(replaced, lines));
   return file;
 }
