@@ -41,6 +41,9 @@ void add_bench_bus(CLI::App& app, BenchChoice& choice);
 /// The status of `run`. Throws Interrupted for bench::Interrupted.
 int bench_status(const std::function<int()>& run);
 
+/// All parameters. Throws bench::NoAnswer.
+Params read_all(bench::ParamClient& client);
+
 /// Prints the nodes that are heard in this time, s. Returns the exit status: 1 if there is none.
 int list_nodes(const BenchChoice& choice, double for_s, bool json);
 

@@ -195,6 +195,7 @@ void add_bench(CLI::App& app, int& status) {
   add_bench_orders(*bench, status);
   add_bench_drive(*bench, status);
   add_bench_calibrate(*bench, status);
+  add_bench_selftest(*bench, status);
   for (CLI::App* command : bench->get_subcommands({})) {
     command->footer(
         R"(Exit status of bench: 0 done, 2 bad input or usage, or a value that is refused, 130 interrupted,

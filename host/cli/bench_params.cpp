@@ -60,11 +60,15 @@ void take(Params& params, std::size_t place, bench::ParamClient& client) {
   set_raw_param(params, index, *raw);
 }
 
+}  // namespace
+
 Params read_all(bench::ParamClient& client) {
   Params params;
   for (std::size_t i = 0; i < robot_keys().size(); ++i) take(params, i, client);
   return params;
 }
+
+namespace {
 
 Json value_json(const ParamEntry& e, std::int64_t raw) {
   if (e.boolean) return raw != 0;

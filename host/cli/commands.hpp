@@ -29,6 +29,7 @@ void add_bench_drive(CLI::App& bench, int& status);
 void add_bench_orders(CLI::App& bench, int& status);
 void add_bench_params(CLI::App& bench, int& status);
 void add_bench_rules(CLI::App& bench, int& status);
+void add_bench_selftest(CLI::App& bench, int& status);
 void add_bench_watch(CLI::App& bench, int& status);
 void add_socket(CLI::App& app, int& status);
 void add_controller(CLI::App& app, int& status);

@@ -1,7 +1,9 @@
-// The first evening of docs/build-a-pico-robot.md: its commands, at the robot behind a pseudo terminal.
+// The commands of docs/build-a-pico-robot.md, at the robot behind a pseudo terminal.
 import assert from 'node:assert/strict';
 import {execFile, spawn} from 'node:child_process';
-import {readFileSync} from 'node:fs';
+import {once} from 'node:events';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {createInterface} from 'node:readline';
 import {test} from 'node:test';
@@ -40,9 +42,9 @@ async function said(command) {
 const block = (name) =>
   new RegExp(`<!-- ${name}:begin -->\n\`\`\`\n([^]*?)\`\`\``).exec(PAGE)[1].trim().split('\n');
 
-/** With a robot behind a pseudo terminal, by these words of scripts/pico. */
-async function evening(words, lines, says) {
-  const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty', ...words], {stdio: ['ignore', 'pipe', 'ignore']});
+/** Calls use(cable, says) with a robot behind a pseudo terminal, by these words of scripts/pico; says() a line to it. */
+async function beside(words, use) {
+  const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty', ...words], {stdio: ['pipe', 'pipe', 'ignore']});
   try {
     let cable = null;
     for await (const line of createInterface({input: robot.stdout})) {
@@ -50,6 +52,14 @@ async function evening(words, lines, says) {
       if (cable !== null) break;
     }
     assert.ok(cable);
+    await use(cable, (line) => robot.stdin.write(`${line}\n`));
+  } finally {
+    robot.kill('SIGINT');
+  }
+}
+
+const evening = (words, lines, says) =>
+  beside(words, async (cable) => {
     for (const line of lines) {
       const command = line.replace('$CABLE', cable);
       let text = '';
@@ -59,10 +69,7 @@ async function evening(words, lines, says) {
       }
       assert.match(text, says[what(line)], command);
     }
-  } finally {
-    robot.kill('SIGINT');
-  }
-}
+  });
 
 test('the commands of the first evening', {timeout: 600000}, async () => {
   const lines = block('evening');
@@ -75,4 +82,50 @@ atNight('with HC-SR04', {timeout: 600000}, async () => {
   assert.ok(PAGE.includes(words));
   const lines = [...block('sonar'), block('evening').at(-1)];
   await evening(words.split(' '), lines, {...SAYS, set: /sonar: false -> true/});
+});
+
+/** The check list, at a robot by these words of scripts/pico, with hands or without: its status, and its file. */
+async function listed(words, hands, ...options) {
+  const folder = mkdtempSync(join(tmpdir(), 'whisker-selftest-'));
+  const file = join(folder, 'selftest.json');
+  let status = null;
+  await beside(words, async (cable, tell) => {
+    await sleep(BETWEEN_MS);
+    const [program, ...command] = block('selftest')[0].replace('$CABLE', cable).split(' ');
+    const bench = spawn(program, [...command, '--out', file, ...options], {cwd: ROOT});
+    bench.stdout.resume();
+    const ended = once(bench, 'close');
+    for await (const line of createInterface({input: bench.stderr})) {
+      const sensor = /hold a hand .* the (\w+) sensor/.exec(line)?.[1];
+      const wheel = /turn the (\w+) wheel/.exec(line)?.[1];
+      if (/Press Enter/.test(line)) bench.stdin.end(hands ? '\n' : '');
+      if (!hands) continue;
+      tell('hand');
+      if (sensor !== undefined) {
+        await sleep(1000);
+        tell(`hand ${['left', 'front', 'right'].indexOf(sensor)}`);
+      } else if (wheel !== undefined) tell(`wheel ${['left', 'right'].indexOf(wheel)} 400`);
+    }
+    [status] = await ended;
+  });
+  const result = JSON.parse(readFileSync(file));
+  rmSync(folder, {recursive: true});
+  return {...result, status};
+}
+
+test('the check list', {timeout: 600000}, async () => {
+  const result = await listed([], true, '--wait', '120');
+  assert.deepEqual([result.status, result.passed, result.failed], [0, 14, 0], JSON.stringify(result.steps));
+  assert.equal(result.parameters.encoder_counts_per_m, '14324');
+});
+
+atNight('the check list, at a robot with other sensors than it believes', {timeout: 600000}, async () => {
+  const words = ['tests/pico/worlds/discs.toml', 'host/robots/pico-sonar.toml'];
+  const result = await listed(words, false, '--wait', '1');
+  assert.deepEqual(
+    result.steps.filter(({passed}) => passed).map(({step}) => step),
+    ['ticks', 'rest'],
+  );
+  assert.equal(result.status, 1);
+  assert.match(result.steps[0].read, /core_fault/);
 });

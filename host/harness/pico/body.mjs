@@ -22,6 +22,8 @@ const FULL = 32767;
 const QUARTERS = [0, 1, 3, 2]; // levels of B and A
 const MODULUS = 1 << 24;
 const MS = 1e6;
+const HAND_MM = 100;
+const BY_HAND = 2; // counts in a millisecond
 
 /** Levels of two inputs as a share of the time with a voltage across the motor, signed: DRV8833 data sheet, table 1. */
 export class MotorDriver {
@@ -113,6 +115,9 @@ export class Body {
     this.encoders = PINS.encoders.map((pin) => chip.attach(new Quadrature(pin)));
     this.sequences = [-1, -1, -1];
     this.pressed = false;
+    this.hand = null; // the beam before which a hand is held
+    this.turned = [0, 0]; // counts of each wheel by hand
+    this.turns = [0, 0]; // and still to turn
     this.sent = [];
     this.misses = []; // of the flash's cache in each tick
     this.ticks = []; // cycles of the core, with those of the handlers within
@@ -155,12 +160,18 @@ export class Body {
   }
   /** For the next millisecond: what the simulator says. */
   feel(words) {
-    this.encoders.forEach((encoder, wheel) => encoder.turn(Number(words[wheel])));
+    this.encoders.forEach((encoder, wheel) => {
+      const step = Math.min(this.turns[wheel], BY_HAND);
+      this.turns[wheel] -= step;
+      this.turned[wheel] += step;
+      encoder.turn((Number(words[wheel]) + this.turned[wheel]) % MODULUS);
+    });
     this.rangers.forEach((ranger, beam) => {
       const [mm, status, sequence] = words.slice(2 + 3 * beam, 5 + 3 * beam).map(Number);
       if (sequence === this.sequences[beam]) return;
       this.sequences[beam] = sequence;
-      ranger.measured(mm, status);
+      if (beam === this.hand) ranger.measured(HAND_MM, 0);
+      else ranger.measured(mm, status);
     });
     this.gyro.pass(Number(words[12]), Number(words[13]));
     const hex = words.at(-1);

@@ -1,7 +1,8 @@
 // usage: node host/harness/pico/live.mjs WORLD [ROBOT]
 //
-// The robot in a world, in real time. Its cable is file descriptor 3, which does not block; scripts/pico opens it. A line
-// `button` or `hold` on standard input presses the button, briefly or for 1.5 s.
+// The robot in a world, in real time. Its cable is file descriptor 3, which does not block; scripts/pico opens it. Lines of
+// standard input: `button` or `hold` presses the button, briefly or for 1.5 s; `hand N` holds a hand before sensor 0, 1 or 2,
+// `hand` takes it away; `wheel N COUNTS` turns wheel 0 or 1 forward by hand.
 import {readSync, writeSync} from 'node:fs';
 import {createInterface} from 'node:readline';
 import {join} from 'node:path';
@@ -41,11 +42,20 @@ drive.takesBytes = (bytes) => {
   if (bytes.length) write(bytes);
 };
 let releaseAt = Infinity;
-createInterface({input: process.stdin}).on('line', (line) => {
-  const ms = {button: BRIEF_MS, hold: HELD_MS}[line.trim()];
-  if (ms === undefined) return console.log('button or hold');
+const press = (ms) => {
   drive.body.press(true);
   releaseAt = drive.ms + ms;
+};
+const lines = {
+  button: () => press(BRIEF_MS),
+  hold: () => press(HELD_MS),
+  hand: (beam) => (drive.body.hand = beam === undefined ? null : Number(beam)),
+  wheel: (wheel, counts) => (drive.body.turns[wheel] = Number(counts)),
+};
+createInterface({input: process.stdin}).on('line', (line) => {
+  const [word, ...values] = line.trim().split(' ');
+  if (lines[word] === undefined) return console.log(Object.keys(lines).join(', '));
+  lines[word](...values);
 });
 
 const began = Date.now();
