@@ -53,7 +53,7 @@ TEST(C, ParametersAreThoseOfTheCore) {
     EXPECT_EQ(whisker_get_param(&params, static_cast<whisker_param>(i)), raw_param(defaults, i)) << i;
   }
   EXPECT_EQ(whisker_check_params(&params), 0);
-  EXPECT_EQ(kParams, WHISKER_PARAM_BEND_COURSE + 1);
+  EXPECT_EQ(kParams, WHISKER_PARAM_SONAR + 1);
 }
 
 TEST(C, SetsParametersWithinTheirRanges) {

@@ -155,6 +155,15 @@ bool is_claim(std::string_view key) {
   return key == "straight_walls" || key == "wall_direction_deg" || key == "gyro_scale";
 }
 
+/// The places in param_list of what the core looks at.
+std::vector<std::size_t> places_of_core(const std::vector<ParamEntry>& list) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (std::string_view(list[i].key) != "sonar") places.push_back(i);
+  }
+  return places;
+}
+
 Sensor as_declared(const Params& p) {
   Sensor sensor;
   sensor.incidence_deg = static_cast<double>(p.rangefinders.incidence.raw()) * 360 / 4294967296.0;
@@ -249,9 +258,10 @@ DrawnRobot draw_robot(Dice& dice) {
 
 Share change_keys(Dice& dice, Params& params, int count) {
   static const std::vector<ParamEntry> usual = param_list(Params{});
+  static const std::vector<std::size_t> places = places_of_core(usual);
   Share share;
   for (int i = 0; i < count * kDrawsPerKey && share.accepted < static_cast<std::uint64_t>(count); ++i) {
-    const auto place = static_cast<std::size_t>(dice.index(static_cast<int>(usual.size())));
+    const std::size_t place = places[static_cast<std::size_t>(dice.index(static_cast<int>(places.size())))];
     if (is_claim(usual[place].key)) continue;
     Params changed = params;
     set_param(changed, place, draw_value(dice, param_list(params)[place], usual[place].raw));
