@@ -144,6 +144,14 @@ TEST_F(SketchSonarsTest, MeasureWallsAndTellOpenGround) {
   pass(100);
   EXPECT_EQ(pass(600), (Seen{{RangeStatus::ok, 10}}));
   EXPECT_NEAR(mm, 500, 6);
+  // Below range_min_m, the core takes it for too_near.
+  front.metres = 0.01;
+  pass(100);
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::ok, 10}}));
+  EXPECT_LT(mm, 20U);
+  front.metres = 3.6;
+  pass(100);
+  EXPECT_EQ(pass(600), (Seen{{RangeStatus::clear, 10}}));
   front.metres = 0;
   pass(100);
   EXPECT_EQ(pass(600), (Seen{{RangeStatus::clear, 10}}));
