@@ -59,7 +59,7 @@ bool line_came(bool& eof) {
 
 class Selftest {
  public:
-  explicit Selftest(const SelftestOptions& o) : o_(o), bus_(o.bus) {}
+  explicit Selftest(const SelftestOptions& o) : o_(o), told_(words_beside({o.file})), bus_(o.bus) {}
 
   int run() {
     bus_.meet();
@@ -99,8 +99,8 @@ class Selftest {
   void note(const std::string& name, const std::string& does, const std::string& read, bool passed) {
     steps_.push_back({{"step", name}, {"does", does}, {"read", read}, {"passed", passed}});
     if (!passed) ++failed_;
-    fmt::print("{:<6} {:<13} {}: {}\n", passed ? "passed" : "FAILED", name, does, read);
-    std::fflush(stdout);
+    fmt::print(told_, "{:<6} {:<13} {}: {}\n", passed ? "passed" : "FAILED", name, does, read);
+    std::fflush(told_);
   }
   static void ask(const std::string& what) { fmt::print(stderr, "{}\n", what); }
 
@@ -189,8 +189,9 @@ class Selftest {
   bool agreed() {
     if (o_.yes) return true;
     ask(fmt::format(
-        "now it turns on the spot and drives {} m ahead, twice; it needs 2 m of free floor. Press Enter",
-        kGoal_m));
+        "now it turns on the spot and drives, to {} m ahead and on to {} m; it needs 2 m of free floor. "
+        "Press Enter",
+        kGoal_m, kFar_m));
     bool eof = false;
     const bool came = bus_.listen(BenchBus::kMost_s, [&] { return line_came(eof); });
     if (came && !eof) return true;
@@ -275,13 +276,14 @@ class Selftest {
                        {"steps", steps_},
                        {"parameters", parameters}};
     files::write(o_.file, with_provenance(json.dump(2), {}));
-    fmt::print("{} of {} passed: {}\n", steps_.size() - static_cast<std::size_t>(failed_), steps_.size(),
-               o_.file);
+    fmt::print(told_, "{} of {} passed: {}\n", steps_.size() - static_cast<std::size_t>(failed_),
+               steps_.size(), o_.file);
   }
 
   static constexpr double kAgain_s = 0.1;  // period of heartbeats
 
   const SelftestOptions& o_;
+  std::FILE* const told_;
   BenchBus bus_;
   std::unique_ptr<bench::OperatorClient> client_;
   Params params_;

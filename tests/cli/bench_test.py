@@ -271,6 +271,7 @@ class Parameters(Beside):
 class Orders(Beside):
     def test_stop_and_reset_of_a_lone_controller(self):
         self.controller()
+        self.complains("selftest", says="robot 1 needs its controller and its base")
         self.assertEqual(self.done("stop"), "robot 1: E-stop\n")
         (node,) = self.json_of("nodes")["nodes"]
         self.assertEqual((node["state"], node["errors"]), ("e_stopped", ["e_stop"]))
