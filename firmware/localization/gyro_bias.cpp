@@ -8,6 +8,10 @@ constexpr Duration kForever = milliseconds(1000000000);
 // A change that was learned is followed no longer than two rests are apart.
 constexpr Duration kFollows = GyroBias::kServes * 2;
 constexpr Duration kShortest = 100_ms;
+// Counts of a way of track / kFineCounts are so fine that kWait is enough.
+constexpr int32_t kFineCounts = 650;
+// Leaves kFirstRest of the longest rest.
+constexpr Duration kLongestWait = 2850_ms;
 
 int32_t samples_in(Duration time, int32_t rate_hz) noexcept { return time.raw() * rate_hz / 1000; }
 
@@ -23,6 +27,15 @@ int32_t rate_of(int32_t sample, const GyroParams& params) noexcept {
 
 [[gnu::noinline]] int32_t GyroBias::value() const noexcept {
   return saturate32(value_ + scale_down<16>(int64_t{change_} * min(measured_for_, kFollows).raw()));
+}
+
+void GyroBias::configure(const Params& params) noexcept {
+  const Duration lag = params.wheels.motor_lag;
+  wait_ = max(kWait, lag * 6 - kWait);
+  // After the last count, less than a count of way is left. It halves in 0.7 of the lag.
+  const Length fine = params.body.track / kFineCounts;
+  for (Length left = derived::encoder_count(params); left > fine; left = left / 2) wait_ += lag * 7 / 10;
+  wait_ = min(wait_, kLongestWait);
 }
 
 void GyroBias::pass(bool still, Duration elapsed) noexcept {

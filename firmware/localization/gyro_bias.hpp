@@ -13,8 +13,8 @@ int32_t scaled_range(const GyroParams& params) noexcept;
 /// The rate that a sample of so much (2^-16 of its unit) means: 2^-24 rad/s.
 int32_t rate_of(int32_t sample, const GyroParams& params) noexcept;
 
-/// A rest counts from kWait (more with a slow motor) after the last encoder count on: until then the body
-/// may still move.
+/// A rest counts from kWait (more with a slow motor or coarse counts) after the last encoder count on: until
+/// then the body may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
 /// gyro that warms up changes noticeably. In between, the value follows the change that was learned.
@@ -25,7 +25,7 @@ class GyroBias {
   static constexpr Duration kRest = 1000_ms;
   static constexpr Duration kServes = 60000_ms;
 
-  void configure(const Params& params) noexcept { wait_ = max(kWait, params.wheels.motor_lag * 6 - kWait); }
+  void configure(const Params& params) noexcept;
   /// Once per step. `still`: no counts, and no wheel is commanded to turn.
   void pass(bool still, Duration elapsed) noexcept;
   /// No counts and no command at this step.

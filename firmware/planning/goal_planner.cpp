@@ -1,6 +1,21 @@
 #include "firmware/planning/goal_planner.hpp"
 
+#include "firmware/planning/steering.hpp"
+
 namespace whisker::planning {
+namespace {
+
+constexpr int32_t kHardly = 8;  // part of the top speed
+
+}  // namespace
+
+bool GoalPlanner::arrives(const Vec& to, Length distance, const View& view,
+                          const Params& params) const noexcept {
+  if (!is_goal(distance)) return false;
+  if (view.forward < params.wheels.max_speed / kHardly) return true;
+  const Duration delay = params.wheels.motor_lag + params.safety.period;
+  return view.forward >= stopping_speed(along(to, view.pose.heading), delay, params);
+}
 
 const Decision& GoalPlanner::answer(const View& view) noexcept {
   decision_.manoeuvre = {};

@@ -50,6 +50,9 @@ class GoalPlanner : public Planner {
   bool is_goal(Length distance) const noexcept {
     return distance <= goal_.tolerance - reserve(goal_.tolerance);
   }
+  /// To be asked on the way: the body is at the goal, and would come no nearer to its middle by driving on.
+  /// One that hardly moves stops where it is. `to`: from the body to the goal.
+  bool arrives(const Vec& to, Length distance, const View& view, const Params& params) const noexcept;
   void report(Mode mode, Why why) noexcept;
   /// Comes to rest until there is a new goal.
   void finish(Mode mode, Why why, Outcome outcome) noexcept;

@@ -13,8 +13,9 @@ namespace {
 constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kDegree = kHalfTurn / 180;
 
-Params params_of_gyro_test() {
+Params params_of_gyro_test(int counts_per_metre) {
   Params p;
+  p.wheels.counts_per_metre = counts_per_metre;
   p.gyro.fitted = Fitted::yes;
   return p;
 }
@@ -22,7 +23,7 @@ Params params_of_gyro_test() {
 /// A body whose speeds the test sets, ticks of 10 ms, with errors of wheels and gyro.
 class GyroHeadingTest : public testing::Test {
  protected:
-  GyroHeadingTest() {
+  explicit GyroHeadingTest(int counts_per_metre = 5000) : params_(params_of_gyro_test(counts_per_metre)) {
     odometry_.configure(params_);
     odometry_.place({});
     bound_.configure(params_);
@@ -46,8 +47,14 @@ class GyroHeadingTest : public testing::Test {
       rolled_[1] += (forward_mps * 0.01 + arc) * scale[1];
       const double rate = turn_radps - slip_right * (forward_mps + turn_radps * 0.07) / 0.14;
       sample(rate + bias_dps * kDegree);
-      tick(forward_mps != 0 || turn_radps != 0);
+      tick(!coasts && (forward_mps != 0 || turn_radps != 0));
     }
+  }
+  /// From this rate to rest with the motor's lag, without a command.
+  void coast(double turn_radps) {
+    coasts = true;
+    for (int i = 0; i < 100; ++i) drive(0.01, 0, turn_radps * std::exp(-i / 5.0));
+    coasts = false;
   }
   void tick(bool commanded) {
     elapsed_ += 10_ms;
@@ -73,8 +80,9 @@ class GyroHeadingTest : public testing::Test {
     if (held != units) ++next_.saturated;
   }
   hal::EncoderCounts counts() const {
-    const auto of = [](double way) {
-      return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(way * 5000)) & 0xFFFFFF);
+    const int per_metre = params_.wheels.counts_per_metre;
+    const auto of = [per_metre](double way) {
+      return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(way * per_metre)) & 0xFFFFFF);
     };
     return {of(rolled_[0]), of(rolled_[1])};
   }
@@ -102,7 +110,7 @@ class GyroHeadingTest : public testing::Test {
     }
   }
 
-  Params params_ = params_of_gyro_test();
+  Params params_;
   Odometry odometry_;
   PoseBound bound_;
   GyroHeading heading_;
@@ -113,6 +121,7 @@ class GyroHeadingTest : public testing::Test {
   double gyro_scale = 1;
   double slip_right = 0;
   bool answers = true;
+  bool coasts = false;
   int skip_ticks = 0;
 
  private:
@@ -136,6 +145,42 @@ TEST_F(GyroHeadingTest, MeasuresItsBiasInTwoSecondsOfRestAndThenTurnsByTheGyro) 
   EXPECT_NEAR(error(), 0, 0.3);
   EXPECT_EQ(health_.wheel_slips, 0U);
 }
+
+TEST_F(GyroHeadingTest, WaitsLongerAfterTheLastCountTheCoarserTheCounts) {
+  const auto wait = [this](int counts_per_metre, Duration lag) {
+    params_.wheels.counts_per_metre = counts_per_metre;
+    params_.wheels.motor_lag = lag;
+    GyroBias bias;
+    bias.configure(params_);
+    Duration waited;
+    for (; !bias.rests(); waited += 1_ms) bias.pass(true, 1_ms);
+    return waited - 1_ms;
+  };
+  EXPECT_EQ(wait(20000, 50_ms), 150_ms);
+  EXPECT_EQ(wait(5000, 50_ms), 150_ms);
+  EXPECT_EQ(wait(676, 50_ms), 255_ms) << "three halvings to 0.2 mm";
+  EXPECT_EQ(wait(100, 50_ms), 360_ms);
+  EXPECT_EQ(wait(100, 0_ms), 150_ms) << "a stepper stands at once";
+  EXPECT_EQ(wait(5000, 500_ms), 2850_ms);
+  EXPECT_EQ(wait(100, 500_ms), 2850_ms);
+}
+
+class CoarseCounts : public GyroHeadingTest, public testing::WithParamInterface<int> {
+ protected:
+  CoarseCounts() : GyroHeadingTest(GetParam()) {}
+};
+
+// The body still turns when the last count has come. If that is taken for bias, its heading leaves.
+TEST_P(CoarseCounts, WhatRollsOnAfterTheLastIsNoBias) {
+  rest(2.5);
+  for (int i = 0; i < 30; ++i) {
+    drive(1.5, 0, 1.2);
+    coast(0.8);
+  }
+  EXPECT_NEAR(error(), 0, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(PerMetre, CoarseCounts, testing::Values(5000, 700, 200, 100));
 
 TEST_F(GyroHeadingTest, UsesTheScaleOfTheParameters) {
   params_.gyro.scale = millionths(1030000);

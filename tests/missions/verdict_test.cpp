@@ -95,6 +95,37 @@ TEST(Verdicts, IdealWheelsAreNeverOffTheGoal) {
   EXPECT_LT(worst, 0.95);
 }
 
+// A tolerance is for the error of the estimate: the body itself ends in the middle, however slow or coarse.
+TEST(Verdicts, TheBodyEndsInTheMiddleOfTheGoal) {
+  for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::map}) {
+    for (const Speed speed : {100_mm_per_s, 200_mm_per_s, 300_mm_per_s}) {
+      for (const int tolerance_mm : {75, 100, 500}) {
+        Scenario s = ahead(0);
+        s.goal.at = {2, 0.3};
+        s.goal.tolerance_m = tolerance_mm / 1000.0;
+        s.robot.wheels.max_speed = speed;
+        const RunResult r = drive(s, nullptr, planner);
+        EXPECT_EQ(r.verdict, Verdict::reached);
+        EXPECT_LT(r.final_distance_m, 0.01) << name(planner) << ", " << speed.raw() << ", " << tolerance_mm;
+      }
+    }
+  }
+}
+
+// A disc of 0.1 m covers the goal's middle: the body stops where it comes no nearer.
+TEST(Verdicts, AGoalWhoseMiddleIsCoveredIsReached) {
+  for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::map}) {
+    for (const double y : {0.0, 0.05, 0.2}) {
+      Scenario s = ahead(0);
+      s.goal = {{2, 0}, 0.5};
+      s.discs = {{{2, y}, 0.1}};
+      s.time_limit_s = 60;
+      const RunResult r = drive(s, nullptr, planner);
+      EXPECT_EQ(r.verdict, Verdict::reached) << name(planner) << ", " << y << ": " << r.detail;
+    }
+  }
+}
+
 // By the estimate always, and in truth but for the rounding of the counts over the way.
 TEST(Verdicts, TheSmallestToleranceIsKept) {
   int off = 0, drives = 0;

@@ -13,6 +13,12 @@ class Recorder final : public GoalPlanner {
   bool ends = false;
   Length goal_x() const { return goal_.at.x; }
   bool there(Length distance) const { return is_goal(distance); }
+  /// The goal is this far ahead, and the body drives this fast.
+  bool stops(Length ahead, Speed forward) const {
+    View view;
+    view.forward = forward;
+    return arrives({ahead, {}}, abs(ahead), view, Params{});
+  }
 
  private:
   void start(const View&) noexcept override {
@@ -134,6 +140,29 @@ TEST(GoalPlanner, APlaceWellInsideTheToleranceIsTheGoal) {
   p.set_goal(at(1000));
   EXPECT_TRUE(p.there(70_mm));
   EXPECT_FALSE(p.there(71_mm));
+}
+
+// The reference robot stops from 0.3 m/s in 45 mm, and in 18 mm more until its wheels follow.
+TEST(GoalPlanner, InsideTheToleranceTheBodyDrivesOnToTheMiddle) {
+  Recorder p;
+  p.set_goal(at(1000));
+  const Speed full = Params{}.wheels.max_speed;
+  EXPECT_FALSE(p.stops(71_mm, full)) << "outside";
+  EXPECT_FALSE(p.stops(65_mm, full));
+  EXPECT_TRUE(p.stops(62_mm, full));
+  EXPECT_FALSE(p.stops(62_mm, full / 2));
+  EXPECT_TRUE(p.stops(-1_mm, full / 2)) << "past it";
+}
+
+TEST(GoalPlanner, InsideTheToleranceABodyThatHardlyMovesStops) {
+  Recorder p;
+  p.set_goal(at(1000));
+  const Speed full = Params{}.wheels.max_speed;
+  EXPECT_FALSE(p.stops(60_mm, full / 7));
+  EXPECT_TRUE(p.stops(60_mm, full / 9));
+  EXPECT_TRUE(p.stops(60_mm, Speed{}));
+  EXPECT_TRUE(p.stops(60_mm, -full));
+  EXPECT_FALSE(p.stops(71_mm, Speed{})) << "outside";
 }
 
 }  // namespace

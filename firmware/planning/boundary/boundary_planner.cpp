@@ -73,7 +73,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     finish(Mode::gave_up, exhausted, Outcome::gave_up);
     return;
   }
-  if (phase_ != Phase::arrive && is_goal(target_.distance)) {
+  if (phase_ != Phase::arrive && arrives(target_.to, target_.distance, view, behaviours_.params)) {
     on(Event::at_goal);
     decision_.manoeuvre = stop();
   }

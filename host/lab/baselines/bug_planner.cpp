@@ -36,7 +36,7 @@ void BugPlanner::act(const View& view) {
     finish(Mode::gave_up, exhausted, Outcome::gave_up);
     return;
   }
-  if (phase_ != Phase::arrive && is_goal(target_.distance)) {
+  if (phase_ != Phase::arrive && arrives(target_.to, target_.distance, view, behaviours_.params)) {
     phase_ = Phase::arrive;
     decision_.manoeuvre = planning::stop();
     return;
