@@ -1,9 +1,10 @@
 // Like replay, but counts only the instructions of one part of the core: the local grid, the marking of the
-// map's beams, or the wavefront. The linker puts the functions below between the part and its callers
-// (--wrap).
+// map's beams, the wavefront, or the inputs of the response table. The linker puts the functions below
+// between the part and its callers (--wrap).
 #include "firmware/apps/golden/player.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/planning/global/wavefront.hpp"
+#include "firmware/planning/ground_inputs.hpp"
 #include "hal/board.hpp"
 
 namespace {
@@ -69,6 +70,11 @@ WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObserv
 #elif defined(WHISKER_PROFILE_FLOOD)
 WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
                  (Wavefront * wavefront, GridMap& map, int32_t words), (wavefront, map, words))
+#elif defined(WHISKER_PROFILE_INPUTS)
+WHISKER_MEASURED(
+    _ZN7whisker8planning13ground_inputsENS_4UnitINS_9LengthTagEEERKNS_10perception9LocalGridENS_3VecENS_5AngleERKNS_6ParamsE,
+    fuzzy::Inputs, (Length nearest, const LocalGrid& grid, Vec at, Angle course, const Params& params),
+    (nearest, grid, at, course, params))
 #endif
 
 int main() { return golden::play(meter); }

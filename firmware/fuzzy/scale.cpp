@@ -19,7 +19,7 @@ Inputs scale(Length left, Length front, Length right, Length max_range) noexcept
   const int64_t l = within(left, max_range);
   const int64_t f = within(front, max_range);
   const int64_t r = within(right, max_range);
-  const Q7 bias = fraction_of(kBiasTop, r - l, whole);
+  const Q7 bias = r == l ? Q7{} : fraction_of(kBiasTop, r - l, whole);
   return {fraction_of(kDistanceTop, f, whole), bias};
 }
 

@@ -18,6 +18,11 @@ int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
   return within(floor_div(n, cell_um), most);
 }
 
-int32_t GridScale::units(Length l) const noexcept { return units(l.raw(), kLongest); }
+int32_t GridScale::units(Length l) const noexcept {
+  const int32_t um = l.raw();
+  if (um < 0 || um > INT32_MAX / kUnitsPerCell) return units(um, kLongest);
+  const int32_t whole = um * kUnitsPerCell / cell_um;
+  return whole > kLongest ? kLongest : whole;
+}
 
 }  // namespace whisker::perception

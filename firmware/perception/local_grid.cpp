@@ -47,7 +47,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   lane_.configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
   // One true cell of a wall beyond the echo would explain it, and what stands on the clear cells between
   // would stay unseen.
-  explains_ = loses_only_grazed(params.rangefinders) ? kUnitsPerCell : kHalfCell;
+  explains_ = narrow<int16_t>(loses_only_grazed(params.rangefinders) ? kUnitsPerCell : kHalfCell);
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.
@@ -59,6 +59,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   const uint64_t passed =
       uint64_t{2} * static_cast<uint64_t>(swept_.raw()) * static_cast<uint64_t>(margin.raw());
   passes_ = narrow<int16_t>(units(Length::from_raw(narrow<int32_t>(square_root(passed)))) - kCellCover);
+  meets_ = narrow<int16_t>(units(reach_.planning + cell_cover(params)));
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;

@@ -97,10 +97,9 @@ class LocalGrid {
   /// Obstacles::suspect of along() alone, at a quarter of the cost.
   int32_t suspects_along(const Vec& from, Angle heading, Length length, Length radius,
                          int32_t enough) const noexcept;
-  /// The ways of a disc of this radius around `from`, each at most `horizon`. Cells that the disc
-  /// touches are met at their centres, and those abeam of a way are ignored. A mirrored grid has mirrored
-  /// ways.
-  Ways ways(const Vec& from, Angle course, Length horizon, Length radius) const noexcept;
+  /// The ways of a disc around `from` that touches cells as the body does with which the robot plans, each at
+  /// most `horizon`. Cells abeam of a way are ignored. A mirrored grid has mirrored ways.
+  Ways ways(const Vec& from, Angle course, Length horizon) const noexcept;
   /// Calls f with the centre of each cell that along() counts, from `from`.
   template <class F>
   void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f) const {
@@ -139,6 +138,10 @@ class LocalGrid {
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested(slot(row))); }
+  /// Suspect cells that are not clear.
+  Row met(int slot) const noexcept { return (suspect_[slot] | tested_[slot]) & ~(young_[slot] | old_[slot]); }
+  /// The slots with suspect cells, one bit each.
+  Row suspect_slots() const noexcept;
   Row tested(int slot) const noexcept { return tested_[slot]; }
   void untest(int slot, Row cells) noexcept { tested_[slot] &= ~cells; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
@@ -215,7 +218,8 @@ class LocalGrid {
   int16_t passes_ = 0;     // so far ahead may the centre of a cell with such an obstacle lie; grid units
   int16_t body_ = 0;       // what the body covers between two checked places; grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
-  int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
+  int16_t meets_ = 0;      // radius of a disc that meets cells by their centres; grid units
+  int16_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
 
   Length clears_;       // how far readings clear ground
   Length place_error_;  // between two readings

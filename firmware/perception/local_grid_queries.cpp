@@ -5,6 +5,15 @@ namespace {
 
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
+constexpr int kUnitBits = 8;
+static_assert(1 << kUnitBits == kUnitsPerCell);
+
+/// The lowest bit's place. row != 0.
+int lowest(Row row) noexcept { return kCells - 1 - leading_zeros(row & (0U - row)); }
+
+/// Of a cell's centre from x.
+constexpr int32_t offset(int cell, int32_t x) noexcept { return cell * kUnitsPerCell + kHalfCell - x; }
+
 constexpr int32_t kRootOfTwo = 181;  // 2^-7
 constexpr int32_t least(int32_t a, int32_t b) noexcept { return a < b ? a : b; }
 
@@ -15,23 +24,78 @@ constexpr int32_t distance_of(int32_t x, int32_t y) noexcept {
   return longer < diagonal ? diagonal : longer;
 }
 
-/// Half the chord of a circle at this distance from its centre; zero outside.
-int32_t chord(int32_t radius, int32_t beside) noexcept {
-  const int32_t squared = (radius - beside) * (radius + beside);
-  return squared > 0 ? static_cast<int32_t>(square_root_32(static_cast<uint32_t>(squared))) : 0;
-}
+/// The ways of a disc: ahead, at 30 and at 60 degrees to both sides. Coordinates are along the course and to
+/// its left.
+class Fan {
+ public:
+  Fan(int32_t most, int32_t radius, int32_t abeam) noexcept
+      : ahead_(most),
+        side_{{most, most}, {most, most}},
+        radius_(radius),
+        first_q14_((abeam + 1) * Q14::kOne) {}
 
-/// Directions from the course; 2^-14: ahead, 30 and 60 degrees to the left, the same to the right.
-constexpr int kWays = 5;
-struct WayAhead {
-  int32_t x, y;
+  /// A suspect cell is here.
+  void meet(int32_t x, int32_t y) noexcept {
+    // So far behind, it is beside every way or behind it.
+    if (x <= -touched()) return;
+    const int32_t aside = y < 0 ? -y : y;
+    if (x >= 0) nearest_ = least(nearest_, distance_of(x, aside));
+    const int32_t long_x = x * kCosine, short_x = x * kSine;
+    const int32_t long_y = aside * kCosine, short_y = aside * kSine;
+    Side& same = side_[y < 0];
+    stop(same.at_30, long_x + short_y, long_y - short_x);
+    stop(same.at_60, short_x + long_y, short_y - long_x);
+    // Beyond, no other way meets it: 1.2 is more than the secant of 30 degrees.
+    if (aside > touched() * 6 / 5) return;
+    Side& other = side_[y >= 0];
+    stop(ahead_, x * Q14::kOne, aside * Q14::kOne);
+    stop(other.at_30, long_x - short_y, long_y + short_x);
+    stop(other.at_60, short_x - long_y, short_y + long_x);
+  }
+
+  int32_t ahead() const noexcept { return ahead_; }
+  int32_t left() const noexcept { return side_[0].farther(); }
+  int32_t right() const noexcept { return side_[1].farther(); }
+  /// INT32_MAX: none.
+  int32_t nearest() const noexcept { return nearest_; }
+
+ private:
+  // Of 30 degrees; 2^-14.
+  static constexpr int32_t kCosine = 14189;
+  static constexpr int32_t kSine = 8192;
+  struct Side {
+    int32_t at_30, at_60;
+    int32_t farther() const noexcept { return at_30 > at_60 ? at_30 : at_60; }
+  };
+
+  int32_t touched() const noexcept { return radius_ + kCellCover; }
+  /// A way that is free so far meets a cell that lies so far along and beside it, 2^-14.
+  void stop(int32_t& free, int32_t along_q14, int32_t across_q14) const noexcept {
+    const int32_t beside_q14 = across_q14 < 0 ? -across_q14 : across_q14;
+    if (beside_q14 >= touched() * Q14::kOne || along_q14 < first_q14_) return;
+    const int32_t along = along_q14 / Q14::kOne;
+    const int32_t beyond = along - free;
+    if (beyond >= radius_) return;
+    const int32_t beside = beside_q14 / Q14::kOne;
+    const int32_t squared = (radius_ - beside) * (radius_ + beside);
+    // The root, half the chord, matters only where it is longer.
+    if (beyond >= 0 && squared < (beyond + 1) * (beyond + 1)) return;
+    const int32_t rest =
+        squared > 0 ? along - static_cast<int32_t>(square_root_32(static_cast<uint32_t>(squared))) : along;
+    free = rest < 0 ? 0 : rest;
+  }
+
+  int32_t ahead_;
+  Side side_[2];  // left, right
+  int32_t nearest_ = INT32_MAX;
+  int32_t radius_;
+  int32_t first_q14_;  // cells less than this along a way are abeam of it
 };
-constexpr WayAhead kWay[kWays] = {{16384, 0}, {14189, 8192}, {8192, 14189}, {14189, -8192}, {8192, -14189}};
 
 }  // namespace
 
 Length LocalGrid::length_of(int32_t units) const noexcept {
-  return Length::from_raw(multiply_divide(units, scale_.cell_um, kUnitsPerCell));
+  return Length::from_raw(saturate32(scale_down_by(int64_t{units} * scale_.cell_um, kUnitBits)));
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -74,45 +138,46 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
   const Row box = stadium.box();
   int32_t found = 0;
   for (Rows rows = stadium.rows(); rows.more() && found < enough; rows.next()) {
-    const Row solid = box & solid_row(rows.row()) & to_window(~clear_row(rows.row()));
+    const Row solid = box & to_window(met(slot(rows.row())));
     if (solid != 0) found += bits(solid & stadium.columns(rows.row()));
   }
   return found;
 }
 
-Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon, Length radius) const noexcept {
-  const Point start = local(from);
+Row LocalGrid::suspect_slots() const noexcept {
+  const auto any = [this](int s) { return suspect_[s] | tested_[s]; };
+  Row found = 0;
+  for (int s = 0; s < kCells; s += 4) {
+    if ((any(s) | any(s + 1) | any(s + 2) | any(s + 3)) != 0) found |= Row{15} << s;
+  }
+  return found;
+}
+
+Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexcept {
   const int32_t most = units(horizon);
-  const int32_t wide = units(radius);
-  const int32_t aside = (wide + kCellCover) * 6 / 5;
+  const Length all = length_of(most);
+  Row slots = suspect_slots();
+  if (slots == 0) return {all, all, all, 60_m};
+  const Point start = local(from);
+  const int32_t reach = most + meets_;
+  const Row box = Span::around(start.x, reach).columns();
   const int32_t c = q14(cos(course));
   const int32_t s = q14(sin(course));
-  int32_t free[kWays] = {most, most, most, most, most};
-  int32_t nearest = INT32_MAX;
-  const Row box = Span::around(start.x, most + wide).columns();
-  for (Rows rows(start.y, most + wide); rows.more(); rows.next()) {
-    Row solid = box & solid_row(rows.row()) & to_window(~clear_row(rows.row()));
-    const int32_t dy = rows.offset(start.y);
-    for (int32_t dx = kHalfCell - start.x; solid != 0; solid >>= 1, dx += kUnitsPerCell) {
-      if ((solid & 1U) == 0) continue;
-      const int32_t x = (dx * c + dy * s) / Q14::kOne;
-      const int32_t y = (dy * c - dx * s) / Q14::kOne;
-      if (x >= 0) nearest = least(nearest, distance_of(x, y < 0 ? -y : y));
-      // From there on, no way to the other side meets it: 1.2 is more than the secant of 30 degrees.
-      const int first = y > aside ? 1 : y < -aside ? 3 : 0;
-      const int end = y > aside ? 3 : kWays;
-      for (int i = first; i < end; ++i) {
-        const int32_t along = (x * kWay[i].x + y * kWay[i].y) / Q14::kOne;
-        const int32_t across = (y * kWay[i].x - x * kWay[i].y) / Q14::kOne;
-        const int32_t beside = across < 0 ? -across : across;
-        if (along <= abeam() || beside >= wide + kCellCover || along >= free[i] + wide) continue;
-        const int32_t rest = along - chord(wide, beside);
-        free[i] = least(free[i], rest < 0 ? 0 : rest);
-      }
+  Fan fan(most, meets_, abeam());
+  for (; slots != 0; slots &= slots - 1) {
+    const int slot = lowest(slots);
+    const Row torus = met(slot);
+    if (torus == 0) continue;
+    const int32_t dy = offset((slot - row_) & (kCells - 1), start.y);
+    if (dy > reach || dy < -reach) continue;
+    for (Row cells = box & to_window(torus); cells != 0; cells &= cells - 1) {
+      const int32_t dx = offset(lowest(cells), start.x);
+      fan.meet((dx * c + dy * s) / Q14::kOne, (dy * c - dx * s) / Q14::kOne);
     }
   }
-  return {length_of(free[1] > free[2] ? free[1] : free[2]), length_of(free[0]),
-          length_of(free[3] > free[4] ? free[3] : free[4]), nearest == INT32_MAX ? 60_m : length_of(nearest)};
+  const auto way = [&](int32_t free) { return free == most ? all : length_of(free); };
+  return {way(fan.left()), way(fan.ahead()), way(fan.right()),
+          fan.nearest() == INT32_MAX ? 60_m : length_of(fan.nearest())};
 }
 
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {

@@ -9,24 +9,18 @@ namespace {
 constexpr int32_t kHorizon = 4;
 constexpr int32_t kNearHorizon = 2;
 
-perception::Ways ways(const perception::LocalGrid& grid, const Pose& along, Length horizon,
-                      const Params& params) noexcept {
-  // Cells are met by their centres here, and by their corners in the guard.
-  return grid.ways(along.at, along.heading, horizon, grid.reach().planning + cell_cover(params));
-}
-
 }  // namespace
 
 fuzzy::Inputs ground_inputs(Length nearest, const perception::LocalGrid& grid, Vec at, Angle course,
                             const Params& params) noexcept {
-  const perception::Ways free = ways(grid, {at, course}, params.body.radius * kHorizon, params);
+  const perception::Ways free = grid.ways(at, course, params.body.radius * kHorizon);
   return fuzzy::scale(free.left, min(nearest, free.nearest), free.right, params.body.radius * kSight);
 }
 
 fuzzy::Inputs near_inputs(const perception::LocalGrid& grid, const Pose& pose,
                           const Params& params) noexcept {
   const Length horizon = params.body.radius * kNearHorizon;
-  const perception::Ways free = ways(grid, pose, horizon, params);
+  const perception::Ways free = grid.ways(pose.at, pose.heading, horizon);
   return fuzzy::scale(free.left, free.ahead, free.right, horizon);
 }
 

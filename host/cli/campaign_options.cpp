@@ -116,14 +116,10 @@ CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& ea
                "N", kMostMissions);
   whole_number(app.add_option("--seed", o.seed, "Mission i has seed S + i; 1 by default, or each file's own"),
                "S");
-  add_world_shape(app, o);
-  return worlds;
-}
-
-void add_world_shape(CLI::App& app, CampaignOptions& o) {
   whole_number(app.add_option("--discs", o.world.discs, "Number of discs, as in `whisker world`"), "N", 200);
   add_gap_width(app, o.world.gap_m, "Of the gap, as in `whisker world`");
   add_switch(app, "--box", o.world.box, "A closed box around, as in `whisker world`");
+  return worlds;
 }
 
 void add_jobs(CLI::App& app, CampaignOptions& o) {

@@ -54,8 +54,6 @@ struct Missions {
 /// the help. Returns the first option.
 CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each,
                         const std::string& name = "KIND|DIR");
-/// --discs, --width and --box alone.
-void add_world_shape(CLI::App& app, CampaignOptions& options);
 /// --jobs.
 void add_jobs(CLI::App& app, CampaignOptions& options);
 

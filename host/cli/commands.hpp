@@ -21,7 +21,6 @@ void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_rules(CLI::App& app, int& status);
 void add_rules_compare(CLI::App& rules, int& status);
-void add_rules_search(CLI::App& rules, int& status);
 void add_plant(CLI::App& app, int& status);
 void add_bench(CLI::App& app, int& status);
 void add_bench_calibrate(CLI::App& bench, int& status);

@@ -45,10 +45,7 @@ campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds
                              double speed_mps, ProgressLine& line, const Interrupt& interrupt) {
   campaign::MeetingCount count;
   for (std::uint64_t i = 0; i < o.count && !interrupt.noted(); ++i) {
-    Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i, own.robot);
-    scenario.sensor = own.sensor;
-    scenario.noise = own.noise;
-    bend_if_chosen(scenario.robot, o.planner);
+    const Scenario scenario = campaign::timed_meeting(course, speed_mps, o.seed + i, own, o.planner);
     const campaign::Meeting meeting = campaign::meet(scenario, o.planner);
     count.add(meeting);
     if (!o.contacts.empty() && meeting.verdict == Verdict::contact) {
@@ -68,6 +65,7 @@ int execute(const MoversOptions& o) {
   }
   Scenario own;
   if (!o.robot.empty()) apply_robot_file(own, o.robot);
+  bend_if_chosen(own.robot, o.planner);
   fmt::print("| course | m/s | missions | reached | said so | contacts | moving | shown | seen in time |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   const Interrupt interrupt;

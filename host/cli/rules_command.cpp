@@ -359,7 +359,6 @@ void add_rules(CLI::App& app, int& status) {
   add_compile(*rules, status);
   add_show(*rules, status);
   add_rules_compare(*rules, status);
-  add_rules_search(*rules, status);
 }
 
 }  // namespace whisker::cli

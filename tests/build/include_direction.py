@@ -83,7 +83,7 @@ def hal_error(path, quoted, system):
     return "a backend includes the contracts, itself and what its kind shares; boards also firmware/ below apps/"
 
 
-# What a part of host/ includes of host/: the robot without hardware, and on a bus; what draws, measures, searches, compiles and
+# What a part of host/ includes of host/: the robot without hardware, and on a bus; what draws, measures, compiles and
 # calibrates; the command.
 HOST_PARTS = {"harness": ("harness",), "lab": ("harness", "lab"), "cli": ("harness", "lab", "cli")}
 

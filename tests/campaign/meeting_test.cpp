@@ -32,22 +32,61 @@ Scenario scene(const std::string& mover) {
                         "scene.toml");
 }
 
+double after_10_s(const Scenario&, double) { return 10; }
+
+Scenario meeting(Course course, double speed_mps, std::uint64_t seed, PlannerKind planner,
+                 const Scenario& own = {}) {
+  return timed_meeting(course, speed_mps, seed, own, planner);
+}
+
 TEST(WorldsMeeting, IsTheSameForTheSameSeedAndLoadsAgain) {
   for (const Course course : worlds::kCourses) {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-      const std::string text = to_toml(worlds::meeting(course, 0.2, seed));
-      EXPECT_EQ(text, to_toml(worlds::meeting(course, 0.2, seed)));
-      EXPECT_NE(text, to_toml(worlds::meeting(course, 0.2, seed + 1)));
+      const auto text_of = [course](std::uint64_t s) {
+        return to_toml(worlds::meeting(course, 0.2, s, after_10_s));
+      };
+      const std::string text = text_of(seed);
+      EXPECT_EQ(text, text_of(seed));
+      EXPECT_NE(text, text_of(seed + 1));
       EXPECT_EQ(to_toml(parse_scenario(text, "meeting.toml")), text);
     }
   }
+}
+
+// The disc's edge reaches the robot's line when a robot that drives alone is there, to 1.5 s.
+TEST(WorldsMeeting, IsTimedToTheRobotsOwnPace) {
+  Scenario slow;
+  slow.robot.wheels.max_speed = 120_mm_per_s;
+  double latest_s = 0;
+  for (const Scenario& own : {Scenario{}, slow}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Scenario crossed = meeting(Course::crossing, 0.2, seed, kDefaultPlanner, own);
+      const Mover& m = crossed.movers[0];
+      const sim::Vec2 ahead{std::cos(crossed.start.heading), std::sin(crossed.start.heading)};
+      const double at = m.center.x * ahead.x + m.center.y * ahead.y;
+      const double aside = std::fabs(m.center.y * ahead.x - m.center.x * ahead.y);
+      const double crosses_s = (aside - m.radius_m) / m.speed_mps;
+      double off_s = INFINITY;
+      Scenario alone = crossed;
+      alone.movers.clear();
+      RunOptions options;
+      options.watch = [&](const Moment& moment) {
+        const TickRecord& r = moment.record;
+        if (r.x_m * ahead.x + r.y_m * ahead.y < at) off_s = std::fabs(r.t_s - crosses_s);
+      };
+      run(alone, options);
+      EXPECT_LE(off_s, 1.5) << "seed " << seed;
+      latest_s = std::fmax(latest_s, crosses_s);
+    }
+  }
+  EXPECT_GT(latest_s, 20);  // the slow robot's
 }
 
 // Most of these runs would end in a contact if the robot did not give way.
 TEST(WorldsMeeting, BringsTheTwoTogether) {
   int near = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const RunResult r = run(worlds::meeting(Course::crossing, 0.2, seed));
+    const RunResult r = run(meeting(Course::crossing, 0.2, seed, kDefaultPlanner));
     near += r.min_clearance_m < 0.4 ? 1 : 0;
   }
   EXPECT_GT(near, 50);
@@ -70,7 +109,7 @@ TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
     for (const Course course : {Course::oncoming, Course::crossing}) {
       MeetingCount count;
       for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
-        count.add(meet(worlds::meeting(course, 0.1, seed), planner));
+        count.add(meet(meeting(course, 0.1, seed, planner), planner));
       }
       // docs/perception.md: 3 to 7 % and 20 to 30 %.
       EXPECT_LE(count.contacts, count.missions * (course == Course::oncoming ? 12 : 36) / 100)
@@ -81,12 +120,12 @@ TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
 
 // What moves is not smaller because the body is.
 TEST(Meet, ASmallRobotLeavesAsFar) {
-  Params small;
-  small.body.radius = 40_mm;
-  small.body.track = 60_mm;
+  Scenario small;
+  small.robot.body.radius = 40_mm;
+  small.robot.body.track = 60_mm;
   MeetingCount count;
   for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
-    count.add(meet(worlds::meeting(Course::oncoming, 0.1, seed, small), kDefaultPlanner));
+    count.add(meet(meeting(Course::oncoming, 0.1, seed, kDefaultPlanner, small), kDefaultPlanner));
   }
   EXPECT_LE(count.contacts, count.missions * 12 / 100);
 }
@@ -152,7 +191,7 @@ TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
   for (const Course course : {Course::oncoming, Course::crossing}) {
     MeetingCount count;
     for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
-      count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::boundary));
+      count.add(meet(meeting(course, GetParam(), seed, PlannerKind::boundary), PlannerKind::boundary));
     }
     // docs/perception.md: the rate is one in some thousands.
     EXPECT_LE(count.seen, 1U) << name(course);

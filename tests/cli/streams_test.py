@@ -93,7 +93,6 @@ class Interruption(Case):
             (("operators", "--count", many), None),
             (("operators", "--hostile", many), None),
             (("rules", "compare", "default", "default", "--worlds", "rooms", "--count", many), None),
-            (("rules", "search", "--worlds", "rooms", "--count", many), "--out"),
             (("robot", "layout", "--sensor", "vl53l1x", "--count", 1000), "--out"),
             (("robot", "calibrate", "robot.toml", "--count", many), None),
             (("robot", "calibrate-drive", "robot.toml", "--count", many), None),

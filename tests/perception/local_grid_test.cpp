@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "host/harness/run/spec.hpp"
 #include "host/harness/worlds/random.hpp"
@@ -223,6 +225,77 @@ TEST(LocalGrid, AlongCountsWhatIsNotClearOnTheWay) {
   }
   EXPECT_GT(blocked, 300);
   EXPECT_LT(blocked, 2900);
+}
+
+/// The centres of the suspect cells, in metres from the body.
+std::vector<sim::Vec2> suspects_around(const perception::LocalGrid& local_grid, Vec at) {
+  std::vector<sim::Vec2> suspects;
+  const Cell here = cell_of(at);
+  for (int y = here.second - kAround; y <= here.second + kAround; ++y) {
+    for (int x = here.first - kAround; x <= here.first + kAround; ++x) {
+      const Vec to = centre({x, y});
+      if (local_grid.suspects_along(to - Vec{10_mm, 0_mm}, {}, 10_mm, 1_mm, 1) == 0) continue;
+      suspects.push_back({metres(to.x) - metres(at.x), metres(to.y) - metres(at.y)});
+    }
+  }
+  return suspects;
+}
+
+/// How far a disc goes in this direction until it meets such a cell: at most if slack > 0, at least if < 0.
+double way_of(const std::vector<sim::Vec2>& suspects, double direction, double horizon, double slack) {
+  const double cover = metres(cell_cover(Params{}));
+  const double radius = metres(reach(Params{}).planning) + cover;
+  double way = horizon;
+  for (const sim::Vec2& at : suspects) {
+    const double along = at.x * std::cos(direction) + at.y * std::sin(direction);
+    const double beside = std::fabs(at.y * std::cos(direction) - at.x * std::sin(direction));
+    if (along < (slack > 0 ? 80 * kCell / 256 : 0) + slack || beside > radius + cover - slack) continue;
+    const double chord = std::sqrt(std::fmax(0, radius * radius - std::pow(std::fmax(0, beside + slack), 2)));
+    way = std::fmin(way, std::fmax(0, along + slack - chord));
+  }
+  return way;
+}
+
+TEST(LocalGrid, WaysEndWhereADiscMeetsASuspectCell) {
+  constexpr double kRounding = 0.0006;
+  int met = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
+    Random random(seed);
+    const Pose pose = draw_pose(random);
+    perception::LocalGrid local_grid = draw_local_grid(random, pose);
+    for (int i = random.index(5); i > 0; --i) {
+      const Vec there{millimetres(random.index(700) - 350), millimetres(random.index(700) - 350)};
+      local_grid.block(pose.at + there, millimetres(random.index(60)));
+    }
+    const Length horizon = millimetres(100 + random.index(300));
+    const perception::Ways ways = local_grid.ways(pose.at, pose.heading, horizon);
+    const std::vector<sim::Vec2> suspects = suspects_around(local_grid, pose.at);
+    const double course = radians(pose.heading);
+    const auto between = [&](Length found, std::initializer_list<int> degrees) {
+      double least = 0, most = 0;
+      for (const int off : degrees) {
+        const double direction = course + off * 3.14159265358979323846 / 180;
+        least = std::fmax(least, way_of(suspects, direction, metres(horizon), -kRounding));
+        most = std::fmax(most, way_of(suspects, direction, metres(horizon), kRounding));
+      }
+      EXPECT_GE(metres(found), least - kRounding) << "seed " << seed;
+      EXPECT_LE(metres(found), most + kRounding) << "seed " << seed;
+    };
+    between(ways.ahead, {0});
+    between(ways.left, {30, 60});
+    between(ways.right, {-30, -60});
+    double nearest = 60, surely = 60;
+    for (const sim::Vec2& at : suspects) {
+      const double ahead = at.x * std::cos(course) + at.y * std::sin(course);
+      if (ahead > -kRounding) nearest = std::fmin(nearest, std::hypot(at.x, at.y));
+      if (ahead > kRounding && std::hypot(at.x, at.y) < metres(horizon))
+        surely = std::fmin(surely, std::hypot(at.x, at.y));
+    }
+    EXPECT_GE(metres(ways.nearest), 0.92 * nearest - kRounding) << "seed " << seed;
+    EXPECT_LE(metres(ways.nearest), surely + kRounding) << "seed " << seed;
+    met += ways.ahead < horizon - 1_mm ? 1 : 0;
+  }
+  EXPECT_GT(met, 30);
 }
 
 TEST(LocalGrid, ApproachesTellsWhatComesNearer) {

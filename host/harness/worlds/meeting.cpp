@@ -15,7 +15,6 @@ namespace {
 constexpr double kWay = 4;        // m
 constexpr double kOut = 30;       // m, beyond the reach of any mission
 constexpr double kLimit = 120;    // s
-constexpr double kSurvey = 2.5;   // s, before the robot drives
 constexpr double kEarlier = 1.5;  // s, earlier or later
 
 }  // namespace
@@ -29,9 +28,9 @@ const char* name(Course course) {
   return "?";
 }
 
-Scenario meeting(Course course, double speed_mps, std::uint64_t seed, const Params& robot) {
+Scenario meeting(Course course, double speed_mps, std::uint64_t seed, const Arrival& arrival,
+                 const Params& robot) {
   const Params reference;
-  const double pace = sim::si(robot.wheels.max_speed);
   const double wider = sim::si(robot.body.radius) - sim::si(reference.body.radius);
   Random random(seed);
   const double heading_deg = random.uniform(-180, 180);
@@ -42,9 +41,11 @@ Scenario meeting(Course course, double speed_mps, std::uint64_t seed, const Para
   Scenario s;
   s.name = fmt::format("{}_{:.2f}_{}", name(course), speed_mps, seed);
   s.seed = seed;
-  s.time_limit_s = kLimit * std::max(1.0, sim::si(reference.wheels.max_speed) / pace);
+  s.time_limit_s =
+      kLimit * std::max(1.0, sim::si(reference.wheels.max_speed) / sim::si(robot.wheels.max_speed));
   s.goal.at = place(kWay + wider, 0);
   s.start = {{0, 0}, heading_deg * kRadPerDeg};
+  s.robot = robot;
   Mover m;
   m.radius_m = random.uniform(0.03, 0.3);
   m.speed_mps = speed_mps;
@@ -55,7 +56,7 @@ Scenario meeting(Course course, double speed_mps, std::uint64_t seed, const Para
       break;
     case Course::crossing: {
       const double at = wider + random.uniform(0.8, 3);
-      const double wait_s = at / pace + kSurvey + random.uniform(-kEarlier, kEarlier);
+      const double wait_s = arrival(s, at) + random.uniform(-kEarlier, kEarlier);
       const double side = random.chance(0.5) ? 1 : -1;
       const double slant = random.uniform(-3, 3);
       m.path = {place(at, side * (wait_s * speed_mps + m.radius_m)), place(at + slant, -kOut * side)};
@@ -67,7 +68,6 @@ Scenario meeting(Course course, double speed_mps, std::uint64_t seed, const Para
   }
   m.center = m.path[0];
   s.movers = {m};
-  s.robot = robot;
   return s;
 }
 

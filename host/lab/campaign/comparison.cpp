@@ -1,15 +1,18 @@
 #include "host/lab/campaign/comparison.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace whisker::campaign {
 namespace {
 
-std::optional<Estimate> geometric(const std::vector<double>& logs) {
+/// Of ratios, from their logarithms.
+std::optional<Estimate> geometric_mean(const std::vector<double>& logs) {
   if (logs.empty()) return std::nullopt;
-  return geometric_mean(logs);
+  Estimate e = mean(logs);
+  e.value = std::exp(e.value);
+  if (e.low) e.low = std::exp(*e.low);
+  if (e.high) e.high = std::exp(*e.high);
+  return e;
 }
 
 std::optional<Estimate> mean_of(const std::vector<double>& sample) {
@@ -21,17 +24,7 @@ void add_ratio(std::vector<double>& logs, double a, double b) {
   if (a > 0 && b > 0) logs.push_back(std::log(b / a));
 }
 
-double total(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
-
 }  // namespace
-
-Estimate geometric_mean(const std::vector<double>& logs) {
-  Estimate e = mean(logs);
-  e.value = std::exp(e.value);
-  if (e.low) e.low = std::exp(*e.low);
-  if (e.high) e.high = std::exp(*e.high);
-  return e;
-}
 
 Comparison compare(const std::vector<Pair>& pairs) {
   Comparison c;
@@ -65,9 +58,9 @@ Comparison compare(const std::vector<Pair>& pairs) {
   c.there_b = share(there_b, c.worlds);
   c.success_a = share(a, c.worlds);
   c.success_b = share(b, c.worlds);
-  c.time = geometric(time);
-  c.path = geometric(path);
-  c.jerk = geometric(jerk);
+  c.time = geometric_mean(time);
+  c.path = geometric_mean(path);
+  c.jerk = geometric_mean(jerk);
   c.stops = mean_of(stops);
   c.flips = mean_of(flips);
   c.clearance = mean_of(clearance);
@@ -91,38 +84,5 @@ void JerkMeter::add(double t_s, double speed_mps) {
 }
 
 double JerkMeter::rms() const { return seconds_ > 0 ? std::sqrt(squares_ / seconds_) : 0; }
-
-void Standing::add(const Row& row, double limit_s) {
-  const bool good = succeeded(row);
-  contacts += row.verdict == Verdict::contact;
-  successes += good;
-  log_s.push_back(std::log(good ? std::max(row.time_s, 1e-3) : kTimesLimit * limit_s));
-}
-
-Estimate time_ratio(const Standing& a, const Standing& b) {
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < a.log_s.size(); ++i) logs.push_back(b.log_s[i] - a.log_s[i]);
-  return geometric_mean(logs);
-}
-
-bool ranks_before(const Standing& a, const Standing& b) {
-  if (a.contacts != b.contacts) return a.contacts < b.contacts;
-  if (a.successes != b.successes) return a.successes > b.successes;
-  return total(a.log_s) < total(b.log_s);
-}
-
-bool improves(const Standing& challenger, const Standing& holder) {
-  if (challenger.contacts > holder.contacts || challenger.successes < holder.successes) return false;
-  const Estimate ratio = time_ratio(holder, challenger);
-  return ratio.high && *ratio.high < 1;
-}
-
-std::vector<Round> halving(std::size_t entrants, std::size_t worlds) {
-  std::vector<Round> rounds{{entrants, worlds}};
-  while (rounds.back().entrants > 1) rounds.push_back({(rounds.back().entrants + 1) / 2, worlds});
-  for (std::size_t r = rounds.size() - 1; r > 0; --r)
-    rounds[r - 1].worlds = std::max<std::size_t>(1, rounds[r].worlds / 2);
-  return rounds;
-}
 
 }  // namespace whisker::campaign

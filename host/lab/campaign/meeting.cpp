@@ -49,7 +49,34 @@ class Sighting {
   double now_ = 0;
 };
 
+/// Until the end of the drive if the robot does not come so far.
+double arrival_s(const Scenario& alone, double along_m, PlannerKind planner) {
+  const sim::SinCos ahead = sim::sin_cos(alone.start.heading);
+  double before = 0;
+  RunOptions options;
+  options.planner = planner;
+  options.watch = [&](const Moment& moment) {
+    const TickRecord& r = moment.record;
+    if (r.x_m * ahead.cos + r.y_m * ahead.sin < along_m) before = r.t_s;
+  };
+  run(alone, options);
+  return before;
+}
+
 }  // namespace
+
+Scenario timed_meeting(worlds::Course course, double speed_mps, std::uint64_t seed, const Scenario& own,
+                       PlannerKind planner) {
+  const auto equip = [&own](Scenario scenario) {
+    scenario.sensor = own.sensor;
+    scenario.noise = own.noise;
+    return scenario;
+  };
+  const auto arrival = [&](const Scenario& alone, double along_m) {
+    return arrival_s(equip(alone), along_m, planner);
+  };
+  return equip(worlds::meeting(course, speed_mps, seed, arrival, own.robot));
+}
 
 Meeting meet(const Scenario& scenario, PlannerKind planner) {
   Meeting m;

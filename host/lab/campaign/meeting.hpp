@@ -6,6 +6,7 @@
 #include "host/harness/run/planners.hpp"
 #include "host/harness/run/record.hpp"
 #include "host/harness/scenario/scenario.hpp"
+#include "host/harness/worlds/meeting.hpp"
 
 namespace whisker::campaign {
 
@@ -22,6 +23,11 @@ struct Meeting {
   double near_s = 0;     ///< the same for its nearest point, to 3 cm
   bool said = false;     ///< the reason was planning::Why::something_moves in some tick
 };
+
+/// worlds::meeting with the robot, sensors and noise of `own`, timed to the drive of this planner without a
+/// mover: a robot with another pace meets the same disc at the same place.
+Scenario timed_meeting(worlds::Course course, double speed_mps, std::uint64_t seed, const Scenario& own,
+                       PlannerKind planner);
 
 /// Runs a scenario with one mover and nothing else; deterministic.
 Meeting meet(const Scenario& scenario, PlannerKind planner);

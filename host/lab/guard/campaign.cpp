@@ -1,6 +1,7 @@
 #include "host/lab/guard/campaign.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host/harness/worlds/beside.hpp"
@@ -11,10 +12,26 @@ namespace whisker::guard {
 namespace {
 
 constexpr double kWandering_s = 20;
+constexpr double kToGoal_s = 120;
 
 bool has_goal(Hand hand) { return hand != Hand::joystick && hand != Hand::hostile; }
 
 constexpr double kDrive_s = 20;
+
+/// With the operator, mode and table of the plan. None: the world has no path for this operator.
+std::optional<Result> drive_one(const Plan& plan, Scenario world) {
+  Options options;
+  options.guarded = plan.mode.guarded;
+  options.vouched_m = plan.mode.vouched_m;
+  options.table = plan.table;
+  options.until_goal = has_goal(plan.hand);
+  options.time_s = options.until_goal ? kToGoal_s : kWandering_s;
+  world.robot.guard.nods = plan.mode.nods ? Fitted::yes : Fitted::no;
+  world.robot.guard.assist = plan.mode.assists ? Fitted::yes : Fitted::no;
+  const auto hand = make_operator(plan.hand, world, world.seed);
+  if (!hand) return std::nullopt;
+  return drive(world, *hand, options);
+}
 
 }  // namespace
 
@@ -28,21 +45,6 @@ void Summary::add(const Result& r) {
   time_s += r.time_s;
   granted += r.granted;
   min_clearance_m = std::fmin(min_clearance_m, r.min_clearance_m);
-}
-
-std::optional<Result> drive_one(const Plan& plan, Scenario world, const std::function<bool()>& ended) {
-  Options options;
-  options.guarded = plan.mode.guarded;
-  options.vouched_m = plan.mode.vouched_m;
-  options.table = plan.table;
-  options.until_goal = has_goal(plan.hand);
-  options.time_s = options.until_goal ? kToGoal_s : kWandering_s;
-  options.ended = ended;
-  world.robot.guard.nods = plan.mode.nods ? Fitted::yes : Fitted::no;
-  world.robot.guard.assist = plan.mode.assists ? Fitted::yes : Fitted::no;
-  const auto hand = make_operator(plan.hand, world, world.seed);
-  if (!hand) return std::nullopt;
-  return drive(world, *hand, options);
 }
 
 Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& next) {

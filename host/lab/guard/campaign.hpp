@@ -3,15 +3,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string_view>
 
 #include "host/lab/guard/drive.hpp"
 #include "host/lab/guard/operators.hpp"
 
 namespace whisker::guard {
-
-constexpr double kToGoal_s = 120;
 
 struct Ground {
   std::string_view name;  ///< "30 discs" or "75 discs in a box"
@@ -33,8 +30,6 @@ constexpr Mode kModes[] = {{"no guard", false, false, 0, false},
                            {"nod", true, true, 0, false},
                            {"nod, start vouched for", true, true, 0.35, false},
                            {"nod and assist", true, true, 0, true}};
-
-constexpr Mode kAssisting = kModes[4];
 
 struct Summary {
   std::uint64_t drives = 0;  ///< worlds without a path for this operator do not count
@@ -58,12 +53,10 @@ struct Plan {
   std::uint64_t count = 60;
   const fuzzy::Bilinear::Table* table = nullptr;  ///< of the assist; null: the core's own
 };
-/// One drive in this world, with the plan's operator, mode and table; its robot gets the mode's nods and
-/// assist. None: the world has no path for this operator. Drives without a goal of their own last 20 s,
-/// others at most kToGoal_s. ended: see Options::ended.
-std::optional<Result> drive_one(const Plan& plan, Scenario world,
-                                const std::function<bool()>& ended = nullptr);
-/// Drive i is in the world of seed first_seed + i. `next` is called before each; false ends the campaign.
+
+/// Worlds without a path for this operator do not count. Drives without a goal of their own last 20 s, others
+/// at most 120 s. Drive i is in the world of seed first_seed + i. `next` is called before each; false ends
+/// the campaign.
 Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& next);
 
 /// Up to 20 s of hostile commands in a random world of any class, beginning beside an obstacle, with random

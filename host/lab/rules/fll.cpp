@@ -221,9 +221,7 @@ class FllReader {
       Output& output = base_.outputs[o];
       if (!notes_[o].defuzzified)
         source_.fail(output.place, fmt::format("'{}' has no defuzzifier", output.name));
-      const bool weighted = output.defuzzifier == Defuzzifier::weighted_average ||
-                            output.defuzzifier == Defuzzifier::weighted_sum;
-      if (!weighted && !notes_[o].aggregated)
+      if (!is_weighted(output.defuzzifier) && !notes_[o].aggregated)
         source_.fail(output.place, fmt::format("'{}' has no aggregation", output.name));
       output.silent_reason = "its default is nan";
       if (notes_[o].lock_previous) {

@@ -10,11 +10,6 @@ namespace {
 /// Below it, the error of a set counts against a cut at the strength.
 constexpr double kWeak = 1e-4;
 
-bool is_weighted(const Output& output) {
-  return output.defuzzifier == Defuzzifier::weighted_average ||
-         output.defuzzifier == Defuzzifier::weighted_sum;
-}
-
 double crisp_value(const Term& term, const double* inputs) {
   double z = term.constant;
   for (std::size_t i = 0; i < term.coefficients.size(); ++i) z += term.coefficients[i] * inputs[i];
@@ -61,7 +56,7 @@ void Inference::prepare(std::size_t o) {
   Prepared& prepared = outputs_.emplace_back();
   std::vector<Canvas::Set> sets;
   std::vector<std::pair<std::size_t, bool>> of;
-  const bool summed = is_weighted(output) ? !output.merge_terms : output.aggregation == Or::sum;
+  const bool summed = is_weighted(output.defuzzifier) ? !output.merge_terms : output.aggregation == Or::sum;
   const bool merges = summed || output.aggregation == Or::maximum;
   for (std::size_t r = 0; r < base_.rules.size(); ++r) {
     for (const Conclusion& c : base_.rules[r].conclusions) {
@@ -86,7 +81,7 @@ void Inference::prepare(std::size_t o) {
   }
   prepared.sets = sets.size();
   const bool crossings = output.aggregation == Or::maximum;
-  if (is_weighted(output)) return;
+  if (is_weighted(output.defuzzifier)) return;
   prepared.canvas.emplace_back(sets, output.low, output.high, crossings, false);
   if (!Canvas::exact(sets)) prepared.canvas.emplace_back(sets, output.low, output.high, crossings, true);
 }

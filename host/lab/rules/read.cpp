@@ -16,11 +16,6 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-bool is_weighted(const Output& output) {
-  return output.defuzzifier == Defuzzifier::weighted_average ||
-         output.defuzzifier == Defuzzifier::weighted_sum;
-}
-
 template <class Variable>
 void check_range(const Source& source, const Variable& v) {
   if (std::isnan(v.low)) source.fail(v.place, fmt::format("'{}' has no range", v.name));
@@ -47,7 +42,7 @@ void check_names(const Source& source, const RuleBase& base) {
 void check_output(const Source& source, const Output& output) {
   check_range(source, output);
   for (const Term& term : output.terms) {
-    if (term.crisp == is_weighted(output)) continue;
+    if (term.crisp == is_weighted(output.defuzzifier)) continue;
     source.fail(term.place,
                 fmt::format("'{}' of '{}': {}", term.name, output.name,
                             term.crisp ? "a constant or linear term needs a weighted average or sum"
@@ -72,7 +67,7 @@ bool is_point(const Output& output, const Term& term) {
 /// Sets without area: no integral sees them. Points alone are singletons, as a sampled centroid takes them.
 void check_areas(const Source& source, RuleBase& base, std::size_t o) {
   Output& output = base.outputs[o];
-  if (is_weighted(output)) return;
+  if (is_weighted(output.defuzzifier)) return;
   bool points = output.defuzzifier == Defuzzifier::centroid &&
                 std::all_of(output.terms.begin(), output.terms.end(),
                             [&](const Term& term) { return is_point(output, term); });

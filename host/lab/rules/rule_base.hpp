@@ -75,6 +75,11 @@ struct Output {
   std::optional<double> raw_per_unit;
 };
 
+/// Its terms are constants or linear, and no sets.
+constexpr bool is_weighted(Defuzzifier d) {
+  return d == Defuzzifier::weighted_average || d == Defuzzifier::weighted_sum;
+}
+
 enum class Hedge { negation, very, cubed, very_very, somewhat, extremely, seldom };
 
 /// Step of an antecedent in postfix order.
