@@ -85,10 +85,8 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const Beam& beam = observation.beam;
   const bool both = before != nullptr;
   const Length room = room_for(observation);
-  const int32_t most = units(holds_);
   const auto within = [&](Length free) {
-    const int32_t empty = units(min(free, clears_) - room - kReadingRounding);
-    return empty < most ? empty : most;
+    return units(min(min(free, clears_) - room - kReadingRounding, holds_));
   };
   const auto side = [&](Angle direction, int32_t which) {
     const HalfPlane left = HalfPlane::left_of(direction);
@@ -110,13 +108,18 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const HalfPlane trail_before = side(axis_before - half, sign);
   const HalfPlane lead_before = side(axis_before + half, -sign);
   const HalfPlane ahead = HalfPlane::facing(boundary.facing);
+  const int32_t reach = sound ? free : -1;
+  work_.add(kLinkUnits);
   for (int row = 0; row < kCells; ++row) {
     const int s = slot(row);
     Row& swept = chain.swept[s];
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
-    const bool beyond = dy > free || dy < -free;
-    if (!goes_on || beyond) swept = 0;
-    if (!sound || beyond) continue;
+    if (static_cast<int32_t>(magnitude(dy)) > reach) {
+      swept = 0;
+      continue;
+    }
+    if (!goes_on) swept = 0;
+    work_.add(kLinkRowUnits);
     const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
     Span empty = Span::around(apex.x, free);
     empty.inside_disc(apex.x, dy, free);
