@@ -32,6 +32,10 @@ void Approach::observe(const View& view) noexcept {
   if (guide_ != nullptr) guide_->observe(view);
 }
 
+void Approach::ponder(const View& view) noexcept {
+  if (guide_ != nullptr) guide_->ponder(view);
+}
+
 void Approach::begin() noexcept {
   phase_ = Phase::drive;
   course_.reset();
@@ -60,7 +64,8 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   if (target.distance < closest()) measure_anew(view, target.distance);
   Vec to = target.to;
   if (guide_ != nullptr && advised(view, target.distance, to, decision)) return !refuted_;
-  if (view.sighted && !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
+  if ((view.sighted || course_.searches()) &&
+      !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
     return detour(view, target.distance, decision);
   }
   Angle heading = course_.heading();

@@ -33,11 +33,13 @@ class GridMap {
   bool follow(Vec body, Vec goal) noexcept;
   /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
   /// stay blocked. `doubts`: if no other cell explains an echo, free ones do, and a beam frees no cell of a
-  /// wall that it meets at an angle.
-  void mark(const perception::ConeObservation& observation, bool hold, bool doubts = false) noexcept;
+  /// wall that it meets at an angle. Returns the rows that it looked at.
+  int32_t mark(const perception::ConeObservation& observation, bool hold, bool doubts = false) noexcept;
   /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
-  /// clears alone. Not while a plan is in progress.
-  void free(const perception::LocalGrid& local_grid, Vec body) noexcept;
+  /// clears alone: those of one row, at most so many above or below the body's. Not while a plan is in
+  /// progress.
+  void free(const perception::LocalGrid& local_grid, Vec body, int32_t row) noexcept;
+  int32_t reach_of(const perception::LocalGrid& local_grid) const noexcept;
   void set(Cell p, CellState state) noexcept;
   CellState at(Cell p) const noexcept;
   /// Resets every cell that is not free to unknown.

@@ -141,13 +141,17 @@ TEST(GridMap, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
   local_grid.configure(room.params);
   local_grid.reset({kFrom, {}});
   const auto cell = [&](int32_t x_mm) { return room.map.place({millimetres(x_mm), 50_mm}); };
+  const auto copy = [&](Vec body) {
+    const int32_t reach = room.map.reach_of(local_grid);
+    for (int32_t row = -reach; row <= reach; ++row) room.map.free(local_grid, body, row);
+  };
   for (const int32_t x : {50, 150, 250, 350}) room.map.set(cell(x), CellState::occupied);
-  room.map.free(local_grid, kFrom);
+  copy(kFrom);
   EXPECT_EQ(room.map.at(cell(50)), CellState::free);
   EXPECT_EQ(room.map.at(cell(150)), CellState::occupied);
   // The body drives on: its footprints together clear cells that none of them clears alone.
   for (int32_t x = 50; x <= 200; x += 10) local_grid.move_to({{millimetres(x), 50_mm}, {}});
-  room.map.free(local_grid, {200_mm, 50_mm});
+  copy({200_mm, 50_mm});
   EXPECT_EQ(room.map.at(cell(150)), CellState::free);
   EXPECT_EQ(room.map.at(cell(250)), CellState::occupied);
   EXPECT_EQ(room.map.at(cell(350)), CellState::occupied);
