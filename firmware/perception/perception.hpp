@@ -48,7 +48,7 @@ class Perception {
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
   /// Between observe() and the planner. A tick that takes readings in has enough to do: what they show is
-  /// thought over in the next tick that brings none, or else in the one after it.
+  /// thought over in the next tick; where each tick brings some, in every second one.
   void put_off(Percept& out) noexcept;
 
   /// See LocalGrid::open_lane().

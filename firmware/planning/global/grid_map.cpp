@@ -174,6 +174,13 @@ GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
   return *here & sure()[i] & (upright ? along & ~across : across & ~along);
 }
 
+GridWord GridMap::held(int32_t row, int w, Hold hold, GridWord cells) const noexcept {
+  if (hold == Hold::none) return 0;
+  const int32_t i = row * shape_.words + w;
+  cells &= hold == Hold::occupied ? blocking()[i] & sure()[i] : blocking()[i] | too_narrow(row, w);
+  return cells == 0 ? 0 : cells & touched(row, w);
+}
+
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
 /// where a path may enter. In a fine map a change also affects the room one cell further.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
@@ -194,7 +201,7 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-int32_t GridMap::mark(const perception::ConeObservation& observation, bool hold, bool doubts) noexcept {
+int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold, bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
@@ -251,10 +258,7 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, bool hold,
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
       if (doubts) cells &= ~oblique(row, w, upright);
-      if (hold) {
-        const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
-        if (closed != 0) cells &= ~(closed & touched(row, w));
-      }
+      cells &= ~held(row, w, hold, cells);
       sure()[i] |= cells;
       blocking()[i] &= ~cells;
     }

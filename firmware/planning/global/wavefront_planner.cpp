@@ -5,7 +5,9 @@
 namespace whisker::planning {
 namespace {
 
+constexpr int32_t kRowsATick = 800;  // of a wavefront
 constexpr int32_t kEvery = 16;
+constexpr int32_t kRest = 9;      // ticks between two plans, at least: a wavefront holds shut what would open
 constexpr uint8_t kMostKept = 3;  // plans in a row that keep a wavefront that is still open
 // Units of Work:
 constexpr int32_t kMarkUnits = 30;
@@ -63,15 +65,27 @@ void WavefrontPlanner::observe(const View& view) noexcept {
     active_ = true;
     last_try_ = false;
   }
-  const bool hold = stage_ != Stage::idle;
+  const Hold hold = held();
   for (int i = 0; i < hal::kBeams; ++i) {
     if ((view.observed >> i & 1U) == 0) continue;
     view.local_grid->work().add(kMarkUnits +
                                 map_.mark(view.observations[i], hold, view.doubts) * kMarkRowUnits);
   }
   const Cell body = map_.place(view.pose.at);
-  if (!hold) map_.set(body, CellState::free);
+  if (hold == Hold::none) map_.set(body, CellState::free);
   ++ticks_;
+}
+
+GridMap::Hold WavefrontPlanner::held() const noexcept {
+  switch (stage_) {
+    case Stage::strict: return Hold::blocked;
+    case Stage::passing: return Hold::occupied;
+    case Stage::idle:
+    case Stage::copy:
+    case Stage::ready:
+    case Stage::look: break;
+  }
+  return Hold::none;
 }
 
 void WavefrontPlanner::place_virtual_obstacles() noexcept {
@@ -117,9 +131,9 @@ void WavefrontPlanner::ponder(const View& view) noexcept {
     case Stage::ready: begin_plan(view); return;
     case Stage::strict:
     case Stage::passing: {
-      const int32_t units = work.left() * share();
-      work.add(units);
-      if (wavefront_.run(map_, words(units))) end_wavefront(view);
+      const int32_t words = kRowsATick * map_.shape().words;
+      work.add(units(words));
+      if (wavefront_.run(map_, words)) end_wavefront(view);
       return;
     }
     case Stage::look: look_on(view); return;
@@ -223,6 +237,7 @@ void WavefrontPlanner::take_way(const View& view) noexcept {
 void WavefrontPlanner::end_plan() noexcept {
   stage_ = Stage::idle;
   waits_ = false;
+  if (ticks_ > kEvery - kRest) ticks_ = kEvery - kRest;
 }
 
 int32_t WavefrontPlanner::levels(Length l) const noexcept { return reference(l).raw() / map_.cell().raw(); }

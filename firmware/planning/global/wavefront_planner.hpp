@@ -33,6 +33,7 @@ class WavefrontPlanner final : public GlobalPlanner {
 
  private:
   /// Beside the wavefronts, `look` examines the way that one has found.
+  using Hold = GridMap::Hold;
   enum class Stage : uint8_t { idle, copy, ready, strict, passing, look };
   struct VirtualObstacle {
     Vec at;
@@ -40,6 +41,8 @@ class WavefrontPlanner final : public GlobalPlanner {
   };
 
   void begin(Stage stage, const View& view) noexcept;
+  /// What the wavefront under way needs.
+  Hold held() const noexcept;
   void prepare(const View& view) noexcept;
   void copy(const View& view) noexcept;
   void begin_plan(const View& view) noexcept;
@@ -54,13 +57,8 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t levels(Length l) const noexcept;
   bool straight(const View& view) const noexcept;
   bool sees(const View& view, Vec to) const noexcept;
-  /// A large map takes a multiple of the rest of a tick: its plans would be too late otherwise.
-  int32_t share() const noexcept {
-    const int32_t words = map_.shape().words;
-    return words < 4 ? 1 : words * words / 8;
-  }
-  /// Words of the wavefront for so many units of Work.
-  int32_t words(int32_t units) const noexcept { return map_.shape().fine() ? units / 2 : units * 2 / 3; }
+  /// Of Work, for so many words of the wavefront.
+  int32_t units(int32_t words) const noexcept { return map_.shape().fine() ? words * 2 : words * 3 / 2; }
   void place_virtual_obstacles() noexcept;
   void place_contacts(const View& view) noexcept;
   bool spent() const noexcept;
