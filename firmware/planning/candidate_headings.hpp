@@ -9,6 +9,9 @@ namespace whisker::planning {
 /// Headings around a turn, 7.5 degrees apart.
 constexpr int32_t kCandidateHeadings = 48;
 
+/// There is time to examine another path at this tick.
+inline bool has_time(const View& view) noexcept { return view.local_grid->work().left() > 0; }
+
 enum class Way : uint8_t {
   free,      ///< all of it is clear
   unknown,   ///< nothing detected in it, but not all of it is clear

@@ -138,14 +138,17 @@ void GridMap::doubt_all() noexcept {
   }
 }
 
-void GridMap::free(const perception::LocalGrid& local_grid, Vec body) noexcept {
+int32_t GridMap::reach_of(const perception::LocalGrid& local_grid) const noexcept {
+  return local_grid.half_window().raw() / cell_um_;
+}
+
+void GridMap::free(const perception::LocalGrid& local_grid, Vec body, int32_t row) noexcept {
   const Length radius = Length::from_raw(cell_um_ / 5 * 3);
-  const int32_t reach = local_grid.half_window().raw() / cell_um_;
+  const int32_t reach = reach_of(local_grid);
   const Cell at = place(body);
-  for (int32_t y = at.y - reach; y <= at.y + reach; ++y) {
-    for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
-      if (local_grid.all_clear(middle({x, y}), radius)) set({x, y}, CellState::free);
-    }
+  for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
+    const Cell p{x, at.y + row};
+    if (local_grid.all_clear(middle(p), radius)) set(p, CellState::free);
   }
 }
 
@@ -171,6 +174,13 @@ GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
   return *here & sure()[i] & (upright ? along & ~across : across & ~along);
 }
 
+GridWord GridMap::held(int32_t row, int w, Hold hold, GridWord cells) const noexcept {
+  if (hold == Hold::none) return 0;
+  const int32_t i = row * shape_.words + w;
+  cells &= hold == Hold::occupied ? blocking()[i] & sure()[i] : blocking()[i] | too_narrow(row, w);
+  return cells == 0 ? 0 : cells & touched(row, w);
+}
+
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
 /// where a path may enter. In a fine map a change also affects the room one cell further.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
@@ -191,20 +201,20 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool doubts) noexcept {
+int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold, bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
   };
   const int32_t x = from_corner(beam.apex.x, corner_.x);
   const int32_t y = from_corner(beam.apex.y, corner_.y);
-  if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return;
+  if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return 0;
   const int32_t distance = units(observation.free);
   const int32_t seen = distance < far_ ? distance : far_;
   const bool echo = observation.hit && distance < far_;
   const perception::Wedge cone(beam.axis, beam.half_cone);
   const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
-  if (reach < 0) return;
+  if (reach < 0) return 0;
   const bool within_cone = !echo || beam.half_cone.raw() >= kSuspectHalf.raw();
   const perception::Wedge::Extent extent =
       (within_cone ? cone : perception::Wedge(beam.axis, kSuspectHalf)).extent(reach);
@@ -248,15 +258,13 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
       if (doubts) cells &= ~oblique(row, w, upright);
-      if (hold) {
-        const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
-        if (closed != 0) cells &= ~(closed & touched(row, w));
-      }
+      cells &= ~held(row, w, hold, cells);
       sure()[i] |= cells;
       blocking()[i] &= ~cells;
     }
   }
-  if (!echo) return;
+  const int32_t rows = last < first ? 0 : last - first + 1;
+  if (!echo) return rows;
   const perception::Wedge core(beam.axis, kSuspectHalf);
   const auto find = [&] {
     for (int32_t row = first; row <= last; ++row) {
@@ -285,6 +293,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
       sure()[i] = narrow ? sure()[i] | news : sure()[i] & ~news;
     });
   }
+  return rows * 3;
 }
 
 }  // namespace whisker::planning

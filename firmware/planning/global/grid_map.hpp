@@ -31,13 +31,21 @@ class GridMap {
   void reset(Vec body, Vec goal) noexcept;
   /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
-  /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
-  /// stay blocked. `doubts`: if no other cell explains an echo, free ones do, and a beam frees no cell of a
-  /// wall that it meets at an angle.
-  void mark(const perception::ConeObservation& observation, bool hold, bool doubts = false) noexcept;
+  /// While a wavefront is under way, what blocks it where it has been stays as it is: a cell that opens
+  /// behind it would get a level that does not lead to the goal.
+  enum class Hold : uint8_t {
+    none,
+    occupied,  ///< a wavefront that passes suspect cells
+    blocked,   ///< a strict one
+  };
+  /// Adds the observation of one beam. `doubts`: if no other cell explains an echo, free ones do, and a beam
+  /// frees no cell of a wall that it meets at an angle. Returns the rows that it looked at.
+  int32_t mark(const perception::ConeObservation& observation, Hold hold, bool doubts = false) noexcept;
   /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
-  /// clears alone. Not while a plan is in progress.
-  void free(const perception::LocalGrid& local_grid, Vec body) noexcept;
+  /// clears alone: those of one row, at most so many above or below the body's. Not while a plan is in
+  /// progress.
+  void free(const perception::LocalGrid& local_grid, Vec body, int32_t row) noexcept;
+  int32_t reach_of(const perception::LocalGrid& local_grid) const noexcept;
   void set(Cell p, CellState state) noexcept;
   CellState at(Cell p) const noexcept;
   /// Resets every cell that is not free to unknown.
@@ -69,6 +77,8 @@ class GridMap {
   struct Box;
   GridWord* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * shape_.size(); }
   GridWord touched(int32_t row, int w) const noexcept;
+  /// Of these cells of a word, those that must not open.
+  GridWord held(int32_t row, int w, Hold hold, GridWord cells) const noexcept;
   GridWord oblique(int32_t row, int w, bool upright) const noexcept;
   int32_t units(Length l) const noexcept;
   Cell corner_for(Vec body, Vec goal) const noexcept;

@@ -264,7 +264,7 @@ GridWord Wavefront::Rows::entering(int32_t row, int w) const noexcept {
   GridWord border = w == 0 ? left_ : 0;
   if (w == shape_.words - 1) border |= right_;
   if ((row == 0 && top_) || (row == shape_.rows - 1 && bottom_)) border = ~GridWord{0};
-  if (border == 0) return 0;
+  if ((border & here_->fresh[w + 1]) == 0) return 0;
   const int32_t half = half_width(wavefront_.level_ - wavefront_.detour_, row - goal.y);
   return border & columns(goal.x - half, goal.x + half, w);
 }
@@ -328,28 +328,50 @@ int Wavefront::phase(const GridMap& map, Cell p) const noexcept {
   return static_cast<int>(code) - 1;
 }
 
+/// The cells x - 1 to x + 1 of a row as its lowest three bits; those outside the window are empty.
+GridWord Wavefront::three(const GridMap& map, const GridWord* plane, Cell p) noexcept {
+  if (p.y < 0 || p.y >= map.shape().rows) return 0;
+  const int32_t first = p.y * map.shape().words;
+  const int w = static_cast<int>(p.x / kWordBits);
+  const int32_t bit = p.x % kWordBits;
+  const GridWord* const row = plane + first + w;
+  if (bit > 0 && bit < kWordBits - 1) return *row >> (bit - 1) & 7U;
+  if (bit == 0) return (*row << 1 & 6U) | (w > 0 ? row[-1] >> (kWordBits - 1) : 0);
+  return (*row >> (kWordBits - 2) & 3U) | (w < map.shape().words - 1 ? (row[1] & 1U) << 2 : 0);
+}
+
 bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexcept {
   const int here = phase(map, p);
   if (here < 0) return false;
   const int nearer = (here + 2) % 3;
+  // Of the three rows around, the cells of the level below, and of this level or that.
+  GridWord below[3];
+  GridWord near[3];
+  for (int32_t row = 0; row < 3; ++row) {
+    const Cell at = p + Cell{0, row - 1};
+    const GridWord high = three(map, map.level_high(), at);
+    const GridWord low = three(map, map.level_low(), at);
+    const auto of = [&](int n) { return (n == 0 ? ~high : high) & (n == 1 ? ~low : low); };
+    below[row] = of(nearer);
+    near[row] = below[row] | of(here);
+  }
+  constexpr GridWord kLeft = 1, kMiddle = 2, kRight = 4;
+  // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
+  const GridWord beside = near[1];
+  for (int row = 0; row < 3; row += 2) {
+    const bool straight = (near[row] & kMiddle) != 0;
+    if (!straight || (beside & kLeft) == 0) below[row] &= ~kLeft;
+    if (!straight || (beside & kRight) == 0) below[row] &= ~kRight;
+  }
   int64_t best = INT64_MAX;
-  for (int32_t dy = -1; dy <= 1; ++dy) {
-    for (int32_t dx = -1; dx <= 1; ++dx) {
-      const Cell q = p + Cell{dx, dy};
-      if (phase(map, q) != nearer) continue;
-      if (dx != 0 && dy != 0) {
-        // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
-        const int a = phase(map, p + Cell{dx, 0});
-        const int b = phase(map, p + Cell{0, dy});
-        const auto near = [&](int n) { return n == here || n == nearer; };
-        if (!near(a) || !near(b)) continue;
-      }
-      const Cell rest = aim - q;
-      const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
-      if (far < best) {
-        best = far;
-        on = q;
-      }
+  for (int32_t n = 0; n < 9; ++n) {
+    if ((below[n / 3] >> (n % 3) & 1U) == 0) continue;
+    const Cell q = p + Cell{n % 3 - 1, n / 3 - 1};
+    const Cell rest = aim - q;
+    const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
+    if (far < best) {
+      best = far;
+      on = q;
     }
   }
   return best != INT64_MAX;

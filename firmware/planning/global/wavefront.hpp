@@ -31,6 +31,8 @@ class Wavefront {
   /// Processes this number of words of rows, and up to one row more. True: done.
   bool run(GridMap& map, int32_t words) noexcept;
 
+  bool strict() const noexcept { return task_.strict; }
+  const Cell& goal() const noexcept { return task_.goal; }
   bool reached() const noexcept { return reached_ >= 0; }
   /// The level of the body.
   int32_t level() const noexcept { return reached_; }
@@ -49,6 +51,7 @@ class Wavefront {
  private:
   class Rows;
   enum class Entry : uint8_t { goal, facing_border, any_border };
+  static GridWord three(const GridMap& map, const GridWord* plane, Cell p) noexcept;
   GridWord passable(const GridMap& map, int32_t row, int w) const noexcept;
   void begin_level(const GridMap& map) noexcept;
   bool end_level(GridMap& map) noexcept;

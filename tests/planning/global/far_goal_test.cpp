@@ -79,7 +79,10 @@ Cost cost_of(Vec from, Vec to) {
       }
     }
     g_cells = 0;
+    local_grid.begin_tick();
     map->guide.observe(view);
+    local_grid.work().begin_rest();
+    map->guide.ponder(view);
     view.observed = 0;
     cost.worst = std::max(cost.worst, g_cells);
     Vec place;

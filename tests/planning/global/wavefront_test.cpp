@@ -199,7 +199,7 @@ TEST(Wavefront, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
           clear.beam.axis = Angle::from_raw(heading(c.random));
           clear.beam.half_cone = Angle::from_raw(Params{}.rangefinders.cone.raw() / 2);
           clear.free = 2_m;
-          map.mark(clear, true);
+          map.mark(clear, c.task.strict ? GridMap::Hold::blocked : GridMap::Hold::occupied);
         }
         opened += at_first - blocked();
         const int32_t level = parts.level();
