@@ -14,7 +14,7 @@ class Work {
   /// Searches end when a tick has done this much,
   static constexpr int32_t kSearches = 420;
   /// and what no command waits for when it has done this much,
-  static constexpr int32_t kTick = 640;
+  static constexpr int32_t kTick = 600;
   /// but neither before it has done this much, however much the tick did before.
   static constexpr int32_t kLeast = 60;
 

@@ -78,6 +78,7 @@ Cell GridMap::corner_for(Vec body, Vec goal) const noexcept {
 
 void GridMap::reset(Vec body, Vec goal) noexcept {
   for (int32_t i = 0; i < kGridPlanes * shape_.size(); ++i) planes_[i] = 0;
+  notes_ = false;
   corner_ = corner_for(body, goal);
 }
 
@@ -174,11 +175,42 @@ GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
   return *here & sure()[i] & (upright ? along & ~across : across & ~along);
 }
 
-GridWord GridMap::held(int32_t row, int w, Hold hold, GridWord cells) const noexcept {
-  if (hold == Hold::none) return 0;
+GridWord GridMap::held(int32_t row, int w, const Hold& hold, GridWord cells) noexcept {
   const int32_t i = row * shape_.words + w;
-  cells &= hold == Hold::occupied ? blocking()[i] & sure()[i] : blocking()[i] | too_narrow(row, w);
-  return cells == 0 ? 0 : cells & touched(row, w);
+  const GridWord solid = blocking()[i] & (hold.strict ? ~GridWord{0} : sure()[i]);
+  cells &= hold.strict ? solid | too_narrow(row, w) : solid;
+  if (cells == 0) return 0;
+  cells &= touched(row, w);
+  // A cell that blocks has no level, so its bits can say that it is free.
+  const GridWord news = cells & solid & ~own(hold, row, w) & ~level_high()[i];
+  level_low()[i] |= news;
+  notes_ = notes_ || news != 0;
+  return cells;
+}
+
+/// The wavefront's own cells of a word, which have a level whatever stands there.
+GridWord GridMap::own(const Hold& hold, int32_t row, int w) noexcept {
+  GridWord cells = row == hold.body.y ? columns(hold.body.x, hold.body.x, w) : 0;
+  if (row == hold.goal.y) cells |= columns(hold.goal.x, hold.goal.x, w);
+  return cells;
+}
+
+void GridMap::release(const Hold& hold) noexcept {
+  if (!notes_) return;
+  notes_ = false;
+  GridWord* const sure = this->sure();
+  GridWord* const high = level_high();
+  GridWord* const low = level_low();
+  for (int32_t i = 0; i < size_; ++i) {
+    GridWord cells = (high[i] | low[i]) & planes_[i];
+    if (!hold.strict) cells &= sure[i];
+    if (cells == 0) continue;
+    cells &= ~own(hold, i / shape_.words, static_cast<int>(i % shape_.words));
+    sure[i] |= cells;
+    planes_[i] &= ~cells;
+    high[i] &= ~cells;
+    low[i] &= ~cells;
+  }
 }
 
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
@@ -188,8 +220,10 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   const int32_t reach = shape_.fine() ? 2 : 1;
   if (row < reach || row >= shape_.rows - reach) return ~GridWord{0};
   GridWord near = 0;
+  const GridWord* const high = level_high();
+  const GridWord* const low = level_low();
   for (int32_t i = (row - reach) * words + w; i <= (row + reach) * words + w; i += words) {
-    const auto levels = [this](int32_t at) { return level_high()[at] | level_low()[at]; };
+    const auto levels = [&](int32_t at) { return high[at] | low[at]; };
     const GridWord left = w == 0 ? ~GridWord{0} : levels(i - 1);
     const GridWord here = levels(i);
     const GridWord right = w == words - 1 ? ~GridWord{0} : levels(i + 1);
@@ -201,7 +235,8 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold, bool doubts) noexcept {
+int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold* hold,
+                      bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
@@ -225,6 +260,7 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold,
   const bool upright = magnitude(beam.axis + beam.axis) > (90_deg).raw();
   // Readings of a narrow cone one after another free a cell together.
   const int32_t across = beam.half_cone.raw() < kNarrow.raw() ? 0 : kInside;
+  GridWord* const sure = this->sure();
   Box box;
   bool takes_back = false;
   const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
@@ -240,7 +276,8 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold,
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      const GridWord freed = takes_back ? 0 : sure()[i] & ~blocking()[i];
+      GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
+      if (hold != nullptr) freed |= noted(i, hold->strict);
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);
@@ -258,9 +295,9 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold,
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
       if (doubts) cells &= ~oblique(row, w, upright);
-      cells &= ~held(row, w, hold, cells);
-      sure()[i] |= cells;
-      blocking()[i] &= ~cells;
+      if (hold != nullptr) cells &= ~held(row, w, *hold, cells);
+      sure[i] |= cells;
+      planes_[i] &= ~cells;
     }
   }
   const int32_t rows = last < first ? 0 : last - first + 1;
@@ -287,10 +324,14 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, Hold hold,
                       (wide.x * wide.x + wide.y * wide.y) * kUnitsPerCell * kUnitsPerCell <=
                           most / kUnitsPerCell * (most / kUnitsPerCell);
   for (int32_t row = first; row <= last; ++row) {
-    arc(narrow ? cone : core, row, [&](int32_t i, int, GridWord cells) {
-      const GridWord news = narrow ? cells : cells & ~blocking()[i];
-      blocking()[i] |= news;
-      sure()[i] = narrow ? sure()[i] | news : sure()[i] & ~news;
+    arc(narrow ? cone : core, row, [&](int32_t i, int w, GridWord cells) {
+      const GridWord news = narrow ? cells : cells & ~planes_[i];
+      planes_[i] |= news;
+      sure[i] = narrow ? sure[i] | news : sure[i] & ~news;
+      if (hold == nullptr || !(narrow || hold->strict)) return;
+      const GridWord level = ~news | own(*hold, row, w);
+      level_high()[i] &= level;
+      level_low()[i] &= level;
     });
   }
   return rows * 3;

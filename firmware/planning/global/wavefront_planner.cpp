@@ -5,16 +5,17 @@
 namespace whisker::planning {
 namespace {
 
-constexpr int32_t kRowsATick = 800;  // of a wavefront
 constexpr int32_t kEvery = 16;
-constexpr int32_t kRest = 9;      // ticks between two plans, at least: a wavefront holds shut what would open
-constexpr uint8_t kMostKept = 3;  // plans in a row that keep a wavefront that is still open
+constexpr uint8_t kMostKept = 1;  // plans in a row that keep a wavefront that is still open
 // Units of Work:
 constexpr int32_t kMarkUnits = 30;
-constexpr int32_t kMarkRowUnits = 3;  // of a row that a mark looks at
+constexpr int32_t kMarkRowUnits = 3;  // of a row that a mark looks at,
+constexpr int32_t kHeldRowUnits = 6;  // and while a wavefront is under way
 constexpr int32_t kCellUnits = 8;     // of a step on the way
 constexpr int32_t kLineUnits = 2;     // of a cell on a straight line
 constexpr int32_t kWordsMovedAUnit = 2;
+constexpr int32_t kWordsOfUnits = 4;
+constexpr int32_t kEndUnits = 200;   // of the end of a wavefront
 constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells that are far away
 constexpr Length kLittle = 400_mm;   // the same if they are at hand
 constexpr Length kFarAway = 1500_mm;
@@ -65,27 +66,14 @@ void WavefrontPlanner::observe(const View& view) noexcept {
     active_ = true;
     last_try_ = false;
   }
-  const Hold hold = held();
+  const GridMap::Hold hold = wavefront_.hold();
   for (int i = 0; i < hal::kBeams; ++i) {
     if ((view.observed >> i & 1U) == 0) continue;
-    view.local_grid->work().add(kMarkUnits +
-                                map_.mark(view.observations[i], hold, view.doubts) * kMarkRowUnits);
+    const int32_t rows = map_.mark(view.observations[i], floods() ? &hold : nullptr, view.doubts);
+    view.local_grid->work().add(kMarkUnits + rows * (floods() ? kHeldRowUnits : kMarkRowUnits));
   }
-  const Cell body = map_.place(view.pose.at);
-  if (hold == Hold::none) map_.set(body, CellState::free);
+  if (!floods()) map_.set(map_.place(view.pose.at), CellState::free);
   ++ticks_;
-}
-
-GridMap::Hold WavefrontPlanner::held() const noexcept {
-  switch (stage_) {
-    case Stage::strict: return Hold::blocked;
-    case Stage::passing: return Hold::occupied;
-    case Stage::idle:
-    case Stage::copy:
-    case Stage::ready:
-    case Stage::look: break;
-  }
-  return Hold::none;
 }
 
 void WavefrontPlanner::place_virtual_obstacles() noexcept {
@@ -122,7 +110,6 @@ void WavefrontPlanner::begin(Stage stage, const View& view) noexcept {
 }
 
 void WavefrontPlanner::ponder(const View& view) noexcept {
-  const Work& work = view.local_grid->work();
   switch (stage_) {
     case Stage::idle:
       if (waits_ || ticks_ >= kEvery) prepare(view);
@@ -130,14 +117,23 @@ void WavefrontPlanner::ponder(const View& view) noexcept {
     case Stage::copy: copy(view); return;
     case Stage::ready: begin_plan(view); return;
     case Stage::strict:
-    case Stage::passing: {
-      const int32_t words = kRowsATick * map_.shape().words;
-      work.add(units(words));
-      if (wavefront_.run(map_, words)) end_wavefront(view);
-      return;
-    }
+    case Stage::passing: flood(view); return;
     case Stage::look: look_on(view); return;
   }
+}
+
+void WavefrontPlanner::flood(const View& view) noexcept {
+  const Work& work = view.local_grid->work();
+  if (!wavefront_.over()) {
+    const int32_t words = work.left() * kWordsOfUnits / units_of_words();
+    int32_t spare = 0;
+    const bool over = wavefront_.run(map_, words, &spare);
+    work.add((words - spare) * units_of_words() / kWordsOfUnits);
+    if (!over || work.left() < kEndUnits) return;
+  }
+  map_.release(wavefront_.hold());
+  work.add(kEndUnits);
+  end_wavefront(view);
 }
 
 void WavefrontPlanner::prepare(const View& view) noexcept {
@@ -149,7 +145,7 @@ void WavefrontPlanner::prepare(const View& view) noexcept {
     return;
   }
   ticks_ = 0;
-  more_ = 2 * map_.reach_of(*view.local_grid) + 1;
+  more_ = narrow<int16_t>(2 * map_.reach_of(*view.local_grid) + 1);
   stage_ = Stage::copy;
   copy(view);
 }
@@ -165,6 +161,7 @@ void WavefrontPlanner::copy(const View& view) noexcept {
   place_virtual_obstacles();
   place_contacts(view);
   stage_ = Stage::ready;
+  if (view.local_grid->work().left() > kEndUnits) begin_plan(view);
 }
 
 void WavefrontPlanner::begin_plan(const View& view) noexcept {
@@ -185,9 +182,9 @@ bool WavefrontPlanner::still_open(const View& view) const noexcept {
   if (wavefront_.phase(map_, p) < 0) return false;
   const Cell goal = wavefront_.goal();
   // Farther away, the beams see nothing.
-  const int32_t most = reference(kHorizon).raw() / map_.cell().raw();
-  for (int32_t i = 0; i < most && wavefront_.next(map_, p, goal, p); ++i) {
+  for (int32_t more = reference(kHorizon).raw() / map_.cell().raw(); more > 0; --more) {
     view.local_grid->work().add(kCellUnits);
+    if (!wavefront_.next(map_, p, goal, p)) return p == goal || map_.at_rim(p);
     if (wavefront_.blocked(map_, p)) return false;
   }
   return true;
@@ -234,10 +231,14 @@ void WavefrontPlanner::take_way(const View& view) noexcept {
   end_plan();
 }
 
+void WavefrontPlanner::drop_plan() noexcept {
+  if (floods()) map_.release(wavefront_.hold());
+  stage_ = Stage::idle;
+}
+
 void WavefrontPlanner::end_plan() noexcept {
   stage_ = Stage::idle;
   waits_ = false;
-  if (ticks_ > kEvery - kRest) ticks_ = kEvery - kRest;
 }
 
 int32_t WavefrontPlanner::levels(Length l) const noexcept { return reference(l).raw() / map_.cell().raw(); }
@@ -304,7 +305,7 @@ void WavefrontPlanner::find_way(const View& view) noexcept {
   } else {
     stage_ = Stage::look;
     first_ = true;
-    more_ = reference(kHorizon).raw() / map_.cell().raw();
+    more_ = narrow<int16_t>(reference(kHorizon).raw() / map_.cell().raw());
     seen_ = goal_.at;
     look_on(view);
     return;
@@ -357,9 +358,9 @@ void WavefrontPlanner::bar(Vec at) noexcept {
 bool WavefrontPlanner::doubt() noexcept {
   if (shut_ || last_try_) return false;
   last_try_ = true;
+  drop_plan();
   map_.doubt_all();
   for (VirtualObstacle& b : virtual_obstacles_) b = {};
-  stage_ = Stage::idle;
   has_way_ = false;
   waits_ = active_ = true;
   refusals_ = 0;
@@ -374,7 +375,7 @@ bool WavefrontPlanner::refuse(const View& view) noexcept {
     return last_try_;
   }
   bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));
-  stage_ = Stage::idle;
+  drop_plan();
   waits_ = true;
   return true;
 }
