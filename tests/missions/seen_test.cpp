@@ -147,7 +147,8 @@ TEST(MapWatch, TakesAPictureEveryTenthOfASecondOrWhenThePlanIsMade) {
       if (taken) last = t;
     };
     run(scenario, options);
-    EXPECT_GT(last, 39);
+    // A plan of 16 KB takes seconds.
+    EXPECT_GT(last, 30);
   }
 }
 

@@ -64,10 +64,11 @@ bool Course::choose(const View& view, const Vec& to_goal, Angle deflection, cons
   }
   const Reach& reach = view.local_grid->reach();
   const Length length = min(reach.probe, distance);
+  Share share(view);
   for (; next_ < kEnd; ++next_) {
     if (next_ == 0 || next_ == kRoomy) least_ = kNearlyFree + 1;
     if (next_ == kAll && least_ > kNearlyFree) break;
-    if (next_ != 0 && !has_time(view)) return true;
+    if (!share.more()) return true;
     const Candidate now = candidate(next_, target, wall);
     const Length beside = now.roomy ? reach.planning + for_body(params, kRoom) : reach.planning;
     const int32_t cells =

@@ -37,8 +37,9 @@ int32_t FollowSideSearch::cost(const Exit& e) noexcept {
 void FollowSideSearch::judge(const View& view, int32_t swept) noexcept {
   const Reach& reach = view.local_grid->reach();
   Exit& mine = exit(now_);
+  Share share(view);
   for (; !mine.free && candidate_ <= kSteps; ++candidate_) {
-    if (!has_time(view)) return;
+    if (!share.more()) return;
     const Angle heading = blocked_ + step_angle(candidate_ * sign(now_));
     const Way found = way(view, heading, reach.probe, reach.planning);
     if (found == Way::unknown && swept < step_degrees(candidate_) + kSeenBehind && swept < kLast + 15) return;

@@ -328,7 +328,7 @@ bool Wavefront::run(GridMap& map, int32_t words, int32_t* spare) noexcept {
   while (!over_ && words > 0) {
     if (row_ <= last_) {
       const int32_t width = map.shape().words;
-      const int32_t some = (words + width - 1) / width;
+      const int32_t some = (words - 1) / width + 1;
       const int32_t end = some < last_ + 1 - row_ ? row_ + some : last_ + 1;
       words -= (end - row_) * width;
       rows.spread(row_, end);
