@@ -89,7 +89,9 @@ TEST(Run, ADoorIsPassedAtTheFirstApproach) {
       }
     }
     // This one looks closed to the local grid: the robot measures its jambs.
-    if (planner == PlannerKind::boundary) EXPECT_LT(through_door(0.30, {}, planner).result.path_m, 4.5);
+    if (planner == PlannerKind::boundary) {
+      EXPECT_LT(through_door(0.30, {}, planner).result.path_m, 4.5);
+    }
     std::printf("%s: %.2f times free ground\n", name(planner).c_str(), ratios / drives);
     EXPECT_LT(ratios / drives, 1.5) << name(planner);
   }
