@@ -79,6 +79,9 @@ class Chassis {
   /// Returns what was sent; zero if the drive refused.
   hal::WheelSpeeds actuate(WheelPair speeds) noexcept;
 
+  /// What this tick has computed so far, in the units of Work.
+  uint16_t work() const noexcept { return perception_.local_grid().work().done(); }
+
   /// There was a tick since reset().
   bool started() const noexcept { return started_; }
   bool faulted() const noexcept { return supervisor_.faulted(); }

@@ -105,6 +105,9 @@ const Status& Robot::tick(Time now) noexcept {
   perceive(view, counted);
   plan(view);
   actuate(guard(view.pose, counted));
+  ponder(view);
+  status_.work = chassis_.work();
+  if (status_.work > status_.most_work) status_.most_work = status_.work;
   return status_;
 }
 
@@ -135,9 +138,11 @@ void Robot::perceive(planning::View& view, bool counted) noexcept {
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
   if (chassis_.faulted()) return;
   chassis_.observe(view.settled, settled_since_, view);
-  if (!kGyroBuilt || params_.walls.straight != Fitted::yes) return;
-  follow_wall(hal::kLeft, view);
-  follow_wall(hal::kRight, view);
+  if (kGyroBuilt && params_.walls.straight == Fitted::yes) {
+    follow_wall(hal::kLeft, view);
+    follow_wall(hal::kRight, view);
+  }
+  chassis_.perception().put_off(view);
 }
 
 void Robot::follow_wall(hal::Beam side, const perception::Percept& percept) noexcept {
@@ -260,6 +265,12 @@ WheelPair Robot::granted(const Pose& pose, bool may_drive) noexcept {
 void Robot::actuate(WheelPair speeds) noexcept {
   status_.command = chassis_.actuate(speeds);
   if (chassis_.faulted()) show_fault();
+}
+
+void Robot::ponder(const planning::View& view) noexcept {
+  if (!has_goal_ || chassis_.faulted() || view.local_grid == nullptr) return;
+  view.local_grid->work().begin_rest();
+  planner_.ponder(view);
 }
 
 void Robot::show_fault() noexcept {

@@ -26,6 +26,8 @@ struct Status : localization::Estimate {
   hal::WheelSpeeds command{};  ///< as sent to the drive
   Speed pace;                  ///< that SD of the response table sets straight ahead; zero: it sets none
   uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
+  uint16_t work = 0;           ///< of this tick, in the units of Work
+  uint16_t most_work = 0;      ///< of any tick so far
   Health health;
 };
 
@@ -117,6 +119,7 @@ class Robot {
   WheelPair guard(const Pose& pose, bool counted) noexcept;
   WheelPair granted(const Pose& pose, bool may_drive) noexcept;
   void actuate(WheelPair speeds) noexcept;
+  void ponder(const planning::View& view) noexcept;
   void show_fault() noexcept;
 
   bool placeable(const Pose& pose) noexcept;

@@ -20,6 +20,13 @@ constexpr bool kDividesByParts = true;
 constexpr bool kDividesByParts = false;
 #endif
 
+/// A division of 32 bits is a call of the compiler's library, which takes as long as 20 products.
+#if defined(__arm__) && !defined(__ARM_FEATURE_IDIV)
+constexpr bool kDividesSlowly = true;
+#else
+constexpr bool kDividesSlowly = false;
+#endif
+
 constexpr uint32_t magnitude(int32_t x) noexcept {
   return x < 0 ? 0U - static_cast<uint32_t>(x) : static_cast<uint32_t>(x);
 }

@@ -69,7 +69,7 @@ void LocalGrid::configure(const Params& params) noexcept {
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    return scale_.units(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um, kOutermost);
+    return scale_.units(int64_t{x.raw()} - corner * scale_.cell_um, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -206,8 +206,10 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const bool wide = observation.hit && beam.half_cone.raw() > kSuspectHalf.raw();
   const Wedge core = wide ? Wedge(beam.axis, kSuspectHalf) : cone;
   const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;
+  work_.add(kMarkUnits);
   for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
     const int32_t dy = rows.offset(apex.y);
+    work_.add(kMarkRowUnits);
     Span inside = Span::around(apex.x, reach);
     cone.hold(inside, apex.x, dy);
     const int s = slot(rows.row());
@@ -260,6 +262,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   const Wedge cone(beam.axis, beam.half_cone);
   // The object may extend beyond the cone's edges, and be nearer there, but not behind the apex.
   const HalfPlane ahead = HalfPlane::facing(beam.axis);
+  work_.add(kCells * kArcRowUnits);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span around;
@@ -300,10 +303,12 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
                     units(farthest) + (takes ? kUnitsPerCell : explains_)};
   if (!takes && leaves_window(beam, farthest)) return false;
   const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
+  work_.add(kArcUnits);
   for (Rows rows = arc.rows(apex.y); rows.more(); rows.next()) {
     const int s = slot(rows.row());
     const Row clear = young_[s] | old_[s];
     if ((box & (takes ? clear : ~clear)) == 0) continue;
+    work_.add(kArcRowUnits);
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
     const Row cells = to_torus(arc.columns(apex.x, rows.offset(apex.y)) & ~under.columns());

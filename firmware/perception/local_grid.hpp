@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/math/trig.hpp"
+#include "firmware/math/work.hpp"
 #include "firmware/params.hpp"
 #include "firmware/perception/grid_scale.hpp"
 #include "firmware/perception/lane.hpp"
@@ -105,7 +106,9 @@ class LocalGrid {
   void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f) const {
     const Point start = local(from);
     const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
+    work_.add(kPathUnits);
     for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
+      work_.add(kPathRowUnits);
       Row open = to_window(~clear_row(rows.row())) & stadium.columns(rows.row());
       for (int32_t dx = kHalfCell - start.x; open != 0; open >>= 1, dx += kUnitsPerCell) {
         if ((open & 1U) != 0) f(Vec{length_of(dx), length_of(rows.offset(start.y))});
@@ -118,6 +121,9 @@ class LocalGrid {
   /// kShortestStep, and where the lane holds.
   bool approaches(const Vec& from, const Vec& way, Length radius,
                   Avoid avoid = Avoid::unclear) const noexcept;
+  /// What the questions to the grid, and whoever works with it, have cost at this tick.
+  const Work& work() const noexcept { return work_; }
+  void begin_tick() noexcept { work_.begin(); }
   /// The grid covers at most this distance from the body along each axis.
   Length half_window() const noexcept { return Length::from_raw(scale_.cell_um * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
@@ -126,6 +132,13 @@ class LocalGrid {
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
+  // Units of Work.
+  static constexpr int32_t kMarkUnits = 10, kMarkRowUnits = 4;
+  static constexpr int32_t kLinkUnits = 10, kLinkRowUnits = 6;
+  static constexpr int32_t kArcUnits = 6, kArcRowUnits = 4;
+  static constexpr int32_t kPathUnits = 12, kPathRowUnits = 3;
+  static constexpr int32_t kWayUnits = 4, kWayRowUnits = 2;
+  static constexpr int32_t kDiscUnits = 3, kDiscRowUnits = 1;
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
@@ -136,10 +149,12 @@ class LocalGrid {
   int32_t abeam() const noexcept { return passes_ < kAbeam ? passes_ : kAbeam; }
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
-  Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
-  Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested(slot(row))); }
+  Row clear(int slot) const noexcept { return young_[slot] | old_[slot]; }
+  Row solid_at(int slot) const noexcept { return suspect_[slot] | tested(slot); }
+  Row clear_row(int row) const noexcept { return clear(slot(row)); }
+  Row solid_row(int row) const noexcept { return to_window(solid_at(slot(row))); }
   /// Suspect cells that are not clear.
-  Row met(int slot) const noexcept { return (suspect_[slot] | tested_[slot]) & ~(young_[slot] | old_[slot]); }
+  Row met(int slot) const noexcept { return solid_at(slot) & ~clear(slot); }
   /// The slots with suspect cells, one bit each.
   Row suspect_slots() const noexcept;
   Row tested(int slot) const noexcept { return tested_[slot]; }
@@ -201,6 +216,7 @@ class LocalGrid {
   bool sweep(Chain& chain, const ConeObservation& observation, const EarlierObservation* before,
              const Boundary* seen_ahead) noexcept;
 
+  Work work_;
   int32_t column_ = 0;  // of the window's corner, in world cells
   int32_t row_ = 0;
   Pose last_;

@@ -109,6 +109,7 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const HalfPlane lead_before = side(axis_before + half, -sign);
   const HalfPlane ahead = HalfPlane::facing(boundary.facing);
   const int32_t reach = sound ? free : -1;
+  work_.add(kLinkUnits);
   for (int row = 0; row < kCells; ++row) {
     const int s = slot(row);
     Row& swept = chain.swept[s];
@@ -118,6 +119,7 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
       continue;
     }
     if (!goes_on) swept = 0;
+    work_.add(kLinkRowUnits);
     const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
     Span empty = Span::around(apex.x, free);
     empty.inside_disc(apex.x, dy, free);

@@ -107,12 +107,15 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   Obstacles found;
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
-  const Row box = stadium.box();
+  const Row box = to_torus(stadium.box());
   int32_t nearest = INT32_MAX;
+  work_.add(kPathUnits);
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
-    Row blocked = box & to_window(~clear_row(rows.row()));
-    if (blocked == 0) continue;
-    blocked &= stadium.columns(rows.row());
+    const int s = slot(rows.row());
+    const Row unclear = box & ~clear(s);
+    if (unclear == 0) continue;
+    work_.add(kPathRowUnits);
+    const Row blocked = to_window(unclear) & stadium.columns(rows.row());
     const Row solid = blocked & solid_row(rows.row());
     found.suspect += bits(solid);
     if (found.suspect >= enough) break;
@@ -135,11 +138,14 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
                                   int32_t enough) const noexcept {
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
-  const Row box = stadium.box();
+  const Row box = to_torus(stadium.box());
   int32_t found = 0;
+  work_.add(kPathUnits);
   for (Rows rows = stadium.rows(); rows.more() && found < enough; rows.next()) {
-    const Row solid = box & to_window(met(slot(rows.row())));
-    if (solid != 0) found += bits(solid & stadium.columns(rows.row()));
+    const Row solid = box & met(slot(rows.row()));
+    if (solid == 0) continue;
+    work_.add(kPathRowUnits);
+    found += bits(to_window(solid) & stadium.columns(rows.row()));
   }
   return found;
 }
@@ -182,19 +188,21 @@ Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexce
 
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {
   if (!farther(way, kShortestStep - micrometres(1))) return false;
+  work_.add(kWayUnits);
   const Point there = local(from + way);
   const int32_t reach = units(radius);
   // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
   const int32_t widest = reach > body_ ? reach : body_;
-  const Row box = Span::around(there.x, widest).columns();
+  const Row box = to_torus(Span::around(there.x, widest).columns());
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
-    Row unclear = box & to_window(~clear_row(rows.row()));
-    if (avoid == Avoid::suspect) unclear &= solid_row(rows.row());
+    const int s = slot(rows.row());
+    Row unclear = box & ~clear(s);
+    if (avoid == Avoid::suspect) unclear &= solid_at(s);
     if (unclear == 0) continue;
     Span any;
     any.touched_by_disc(there.x, rows.offset(there.y), widest);
-    if ((any.columns() & unclear) != 0) {
+    if ((any.columns() & to_window(unclear)) != 0) {
       return nears({from, way, reach, rows.row(), avoid}) && !(has_lane() && lane_.holds(from, way, radius));
     }
   }
@@ -210,15 +218,22 @@ bool LocalGrid::nears(const Approach& to) const noexcept {
   const HalfPlane ahead = HalfPlane::facing(to.way, step);
   const int32_t strict = half - kCellCover > passes_ ? half - kCellCover : passes_;
   const int32_t abeam = half > kAbeam ? half : kAbeam;
+  const int32_t passed = abeam < strict ? abeam : strict;
+  const int32_t least = passed < half - kCellCover ? passed : half - kCellCover;
   const Row box = Span::around(there.x, to.reach).columns();
   for (Rows rows(there.y, to.reach + kHalfSquare); rows.more(); rows.next()) {
     if (rows.row() < to.row) continue;
     Row unclear = box & to_window(~clear_row(rows.row()));
     if (to.avoid == Avoid::suspect) unclear &= solid_row(rows.row());
     if (unclear == 0) continue;
+    work_.add(kWayRowUnits);
+    // Most of them lie behind.
+    Span any = Span::around(there.x, to.reach);
+    ahead.clip(any, here.x, rows.offset(here.y), least);
+    if ((any.columns() & unclear) == 0) continue;
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), to.reach);
-    ahead.clip(span, here.x, rows.offset(here.y), abeam < strict ? abeam : strict);
+    ahead.clip(span, here.x, rows.offset(here.y), passed);
     if ((span.columns() & unclear) != 0) return true;
     const Row solid = unclear & solid_row(rows.row());
     if (solid == 0) continue;
@@ -233,16 +248,18 @@ bool LocalGrid::nears(const Approach& to) const noexcept {
 }
 
 bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {
+  work_.add(kDiscUnits);
   const Point at = local(centre);
   const int32_t reach = units(radius);
   if (!in_window(at, reach + kHalfSquare)) return false;
-  const Row box = Span::around(at.x, reach).columns();
+  const Row box = to_torus(Span::around(at.x, reach).columns());
   for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
-    const Row unclear = box & to_window(~clear_row(rows.row()));
+    const Row unclear = box & ~clear(slot(rows.row()));
     if (unclear == 0) continue;
+    work_.add(kDiscRowUnits);
     Span span;
     span.touched_by_disc(at.x, rows.offset(at.y), reach);
-    if ((span.columns() & unclear) != 0) return false;
+    if ((span.columns() & to_window(unclear)) != 0) return false;
   }
   return true;
 }

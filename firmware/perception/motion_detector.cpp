@@ -89,7 +89,6 @@ bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
 }
 
 MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexcept {
-  constexpr Mask kOfScan = (Mask{1} << kBeams) - 1;
   Mask holding = 0;
   for (int n = 0; n < count_ && among >> (n * kBeams) != 0; ++n) {
     if ((among >> (n * kBeams) & kOfScan) == 0) continue;
@@ -133,12 +132,16 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
   // The sectors in `among` that contain the ray k from `nearest` to `far`.
   const auto across = [&](int k, Mask among) {
     if (among == 0) return Mask{0};
+    for (Mask scans = among; scans != 0; scans >>= kBeams) {
+      if ((scans & kOfScan) != 0) local_grid.work().add(kRayUnits);
+    }
     const Q30 x = cos(ray(k));
     const Q30 y = sin(ray(k));
     const Mask behind = holding(beam.apex + Vec{far * x, far * y}, among);
     return behind == 0 ? Mask{0} : holding(beam.apex + Vec{nearest * x, nearest * y}, behind);
   };
   // Sectors that contain the ray examined last: only some, until others are asked for.
+  const Mask all = (Mask{1} << (kBeams * count_)) - 1;
   int examined = -1;
   Mask some = 0;
   for (int n = 0; n < kSectors; ++n) {
@@ -148,7 +151,7 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
     if (local_grid.all_clear(beam.apex + polar(centre, middle), radius)) continue;
     const Mask known = examined == k ? some : 0;
     some = across(k + 1, known);
-    if (some == 0) some = across(k + 1, across(k, ~known));
+    if (some == 0) some = across(k + 1, across(k, all & ~known));
     if (some == 0) return false;
     examined = k + 1;
   }

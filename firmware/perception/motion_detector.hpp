@@ -46,8 +46,10 @@ class MotionDetector {
  private:
   static constexpr int kKept = 10;
   static constexpr int kSectors = 8;
-  using Mask = uint32_t;  // one bit per kept sector
+  static constexpr int32_t kRayUnits = 5;  // of Work, for a scan
+  using Mask = uint32_t;                   // one bit per kept sector
   static_assert(kKept * kBeams <= 32);
+  static constexpr Mask kOfScan = (Mask{1} << kBeams) - 1;
   /// Cosine and sine of a direction, 2^-14.
   struct Facing {
     int16_t cos = 0;

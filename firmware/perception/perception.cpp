@@ -31,6 +31,8 @@ void Perception::forget(const Pose& pose) noexcept {
   motion_.reset();
   monitor_.reset();
   vouched_.any = false;
+  waits_ = false;
+  put_off_ = 0;
   seen_ = 0;
   contradicted_ = 0;
   misses_ = false;
@@ -74,6 +76,7 @@ bool Perception::takes_back(Vec body) noexcept {
 
 void Perception::sense(const hal::RangeReadings* readings, Time now, const Pose& body, const Params& params,
                        Health& health) noexcept {
+  local_grid_.begin_tick();
   if (readings == nullptr) count(health.range_refused);
   conditioner_.update(readings, now, body, params, health);
 }
@@ -112,6 +115,28 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   out.contacts = &contacts_;
   out.doubts = doubts();
   out.local_grid = &local_grid_;
+}
+
+void Perception::put_off(Percept& out) noexcept {
+  const bool now = waits_;
+  waits_ = out.sighted && !now;
+  out.quiet = !out.sighted;
+  out.sighted = now;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const uint8_t bit = static_cast<uint8_t>(1U << i);
+    ConeObservation& observation = out.observations[i];
+    if ((out.observed & bit) != 0) {
+      put_off_ |= bit;
+      put_off_hits_ = static_cast<uint8_t>((put_off_hits_ & ~bit) | (observation.hit ? bit : 0U));
+    } else if (now && (put_off_ & bit) != 0) {
+      observation.number = static_cast<int8_t>(i);
+      observation.beam = {last_[i].apex, last_[i].axis, mounts_[i].half_cone};
+      observation.free = last_[i].free;
+      observation.hit = (put_off_hits_ & bit) != 0;
+    }
+  }
+  out.observed = now ? put_off_ : 0;
+  if (now) put_off_ = 0;
 }
 
 /// What the beam has measured since the last tick, if anything.

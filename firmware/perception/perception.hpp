@@ -47,6 +47,10 @@ class Perception {
   /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
+  /// Between observe() and the planner. A tick that takes readings in has enough to do: what they show is
+  /// thought over in the next tick; where each tick brings some, in every second one.
+  void put_off(Percept& out) noexcept;
+
   /// See LocalGrid::open_lane().
   void open_lane(const Pose& from) noexcept { local_grid_.open_lane(from); }
 
@@ -107,6 +111,9 @@ class Perception {
   Vec taken_back_at_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
+  bool waits_ = false;                    // readings that nobody has thought over
+  uint8_t put_off_ = 0;                   // one bit per beam with such an observation
+  uint8_t put_off_hits_ = 0;              // of them, those with an object
   RangeScatter scatter_[hal::kBeams];
   RangeConditioner conditioner_;
   localization::PoseHistory history_;

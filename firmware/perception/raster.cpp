@@ -71,6 +71,16 @@ Rows::Rows(int32_t low, int32_t high, int32_t reach) noexcept
 void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
   constexpr int32_t kOne = 1 << 14;
   const int32_t rest = margin * kOne - ny * dy;
+  if (kDividesSlowly) {
+    // Most rows lie completely inside or outside, which shows without a division.
+    const bool low_inside = (span.low - x) * nx >= rest;
+    const bool high_inside = (span.high - x) * nx >= rest;
+    if (low_inside && high_inside) return;
+    if (!low_inside && !high_inside) {
+      span.high = span.low - 1;
+      return;
+    }
+  }
   if (nx > 0) {
     span.cut_low(x + ceil_div(rest, nx));
   } else if (nx < 0) {
@@ -176,33 +186,27 @@ Row Stadium::box() const noexcept {
 /// Adds what the discs at both ends touch.
 void Stadium::ends(Span& span, int32_t dy) const noexcept {
   const int32_t reach = radius_ + kHalfSquare;
-  span = {INT16_MAX, -INT16_MAX};
-  if (absolute(dy) <= reach) span = touch(x_, dy, radius_);
-  if (absolute(dy - end_y_) > reach) return;
-  const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
-  if (end.low < span.low) span.low = end.low;
-  if (end.high > span.high) span.high = end.high;
+  if (absolute(dy) <= reach) span.add(touch(x_, dy, radius_));
+  if (absolute(dy - end_y_) <= reach) span.add(touch(x_ + end_x_, dy - end_y_, radius_));
 }
 
-/// Adds where the row crosses this long edge, if at all.
-void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
+/// Adds where the row crosses this long edge. False: it does not.
+bool Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
   const int32_t from_y = dy - sign * aside_y_;
   const int32_t half = uy_ / 2;
   const int32_t t = (from_y * (1 << 14) + ((from_y < 0) == (uy_ < 0) ? half : -half)) / uy_;
-  if (t < sign * skew_ || t > length_ + sign * skew_) return;
+  if (t < sign * skew_ || t > length_ + sign * skew_) return false;
   const int32_t x = x_ + sign * aside_x_ + scale_down<14>(ux_ * t);
-  if (x < span.low) span.low = x;
-  if (x > span.high) span.high = x;
+  span.add({x, x});
+  return true;
 }
 
 Row Stadium::columns(int row) const noexcept {
   const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
-  Span span;
-  ends(span, dy);
-  if (uy_ != 0) {
-    side(span, dy, 1);
-    side(span, dy, -1);
-  }
+  Span span{INT16_MAX, -INT16_MAX};
+  const int crossed = uy_ == 0 ? 0 : side(span, dy, 1) + side(span, dy, -1);
+  // Between the long edges, the discs add nothing.
+  if (crossed < 2) ends(span, dy);
   if (span.empty()) return 0;
   HalfPlane{ux_, uy_}.clip(span, x_, dy, abeam_);
   return span.empty() ? 0 : span.columns();

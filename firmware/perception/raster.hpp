@@ -62,6 +62,11 @@ struct Span {
   void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
   void inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
   void touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  /// Grows until it contains the other one.
+  void add(const Span& other) noexcept {
+    if (other.low < low) low = other.low;
+    if (other.high > high) high = other.high;
+  }
   void cut_low(int32_t x) noexcept {
     if (x > low) low = x;
   }
@@ -161,7 +166,7 @@ class Stadium {
 
  private:
   void ends(Span& span, int32_t dy) const noexcept;
-  void side(Span& span, int32_t dy, int32_t sign) const noexcept;
+  bool side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the start
   int32_t length_, radius_, abeam_;

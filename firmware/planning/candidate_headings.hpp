@@ -9,6 +9,22 @@ namespace whisker::planning {
 /// Headings around a turn, 7.5 degrees apart.
 constexpr int32_t kCandidateHeadings = 48;
 
+/// A search's share of this tick: one path at least, whatever the tick has done before.
+class Share {
+ public:
+  explicit Share(const View& view) noexcept : work_(view.local_grid->work()) {}
+  /// There is time to examine another path.
+  bool more() noexcept {
+    const bool is = first_ || work_.left() > 0;
+    first_ = false;
+    return is;
+  }
+
+ private:
+  const Work& work_;
+  bool first_ = true;
+};
+
 enum class Way : uint8_t {
   free,      ///< all of it is clear
   unknown,   ///< nothing detected in it, but not all of it is clear

@@ -23,6 +23,7 @@ const Decision& GoalPlanner::answer(const View& view) noexcept {
   decision_.lane.opens = false;
   const Request request = request_;
   request_ = Request::none;
+  if (view.local_grid != nullptr) view.local_grid->work().begin_searches();
   switch (request) {
     case Request::none:
       if (decision_.outcome == Outcome::running) advance(view);

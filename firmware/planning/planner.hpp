@@ -80,6 +80,9 @@ class Planner {
   virtual void move_goal(Vec at) noexcept = 0;
   virtual void cancel() noexcept = 0;
   virtual Decision step(const View& view) noexcept = 0;
+  /// After the command of this tick was sent: with what is left of its time, a planner may go on with what no
+  /// command waits for. View::local_grid's work() says how much is left.
+  virtual void ponder(const View&) noexcept {}
 
  protected:
   ~Planner() = default;

@@ -70,17 +70,30 @@ Drive through_door(double width, sim::Pose start, PlannerKind planner) {
   return drive(s, planner);
 }
 
+/// From the start, a cone covers the door and its posts: the map suspects the door until the body is near. A
+/// door of 1.75 bodies and more takes half as long again as free ground, in the mean; whether the body meets
+/// one of 0.32 m straight is chance.
 TEST(Run, ADoorIsPassedAtTheFirstApproach) {
-  // A door of 0.30 m looks closed to the local grid: the robot measures its jambs.
-  // From the start, a cone covers the door and its posts: the map suspects the door until the body is near.
-  for (const double width : {0.30, 0.32, 0.36, 0.48}) {
-    for (const PlannerKind planner : {PlannerKind(PlannerKind::boundary), PlannerKind(PlannerKind::map)}) {
-      const Drive d = through_door(width, {}, planner);
-      EXPECT_EQ(d.result.verdict, Verdict::reached) << width;
-      EXPECT_EQ(d.complaint, "");
-      EXPECT_LT(d.result.path_m, 4.5) << width << " m, " << name(planner);
-      EXPECT_LT(d.result.time_s, width < 0.32 ? 38 : 30) << width << " m, " << name(planner);
+  constexpr double kOpen = 4;
+  for (const PlannerKind planner : {PlannerKind(PlannerKind::boundary), PlannerKind(PlannerKind::map)}) {
+    double ratios = 0;
+    int drives = 0;
+    for (const double width : {0.32, 0.34, 0.36, 0.40, 0.44, 0.48, 0.54}) {
+      for (int i = -2; i <= 2; ++i) {
+        const sim::Pose start{{0, 0.02 * i}, 0.05 * i};
+        const Drive d = through_door(width, start, planner);
+        EXPECT_EQ(d.result.verdict, Verdict::reached) << width << " m, start " << i;
+        EXPECT_EQ(d.complaint, "");
+        ratios += d.result.time_s / through_door(kOpen, start, planner).result.time_s;
+        ++drives;
+      }
     }
+    // This one looks closed to the local grid: the robot measures its jambs.
+    if (planner == PlannerKind::boundary) {
+      EXPECT_LT(through_door(0.30, {}, planner).result.path_m, 4.5);
+    }
+    std::printf("%s: %.2f times free ground\n", name(planner).c_str(), ratios / drives);
+    EXPECT_LT(ratios / drives, 1.5) << name(planner);
   }
 }
 

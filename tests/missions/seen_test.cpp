@@ -88,7 +88,8 @@ TEST(RecordingGuide, IsNotThereWithoutAMap) {
   for (const TickRecord& r : records) ASSERT_EQ(r.guide, Guidance::unknown);
 }
 
-/// The path steps over sides and corners, never into a cell that is known to be occupied.
+/// The path steps over sides and corners, never into a cell that is known to be occupied. It ends at the
+/// goal, where it leaves the window, or before what has come into its way since it was planned.
 void expect_a_way(const MapPicture& picture, Cell from, Cell goal) {
   for (const Cell p : picture.way) {
     ASSERT_LE(std::abs(p.x - from.x), 1);
@@ -98,7 +99,11 @@ void expect_a_way(const MapPicture& picture, Cell from, Cell goal) {
   }
   const bool border =
       from.x == 0 || from.y == 0 || from.x == picture.columns - 1 || from.y == picture.rows - 1;
-  EXPECT_TRUE(from == goal || border) << from.x << ' ' << from.y;
+  bool stopped = false;
+  for (int i = 0; i < 9 && !border; ++i) {
+    stopped = stopped || picture.at(from.x + i % 3 - 1, from.y + i / 3 - 1) >= planning::CellState::suspect;
+  }
+  EXPECT_TRUE(from == goal || border || stopped) << from.x << ' ' << from.y;
 }
 
 TEST(MapPicture, HasTheCellsAndThePlansWay) {
@@ -142,7 +147,8 @@ TEST(MapWatch, TakesAPictureEveryTenthOfASecondOrWhenThePlanIsMade) {
       if (taken) last = t;
     };
     run(scenario, options);
-    EXPECT_GT(last, 39);
+    // A plan of 16 KB takes seconds.
+    EXPECT_GT(last, 30);
   }
 }
 

@@ -37,6 +37,10 @@ void Approach::observe(const View& view, const Target& target, bool active, Deci
   decision.bend = active ? bend : Angle{};
 }
 
+void Approach::ponder(const View& view) noexcept {
+  if (guide_ != nullptr) guide_->ponder(view);
+}
+
 void Approach::begin() noexcept {
   phase_ = Phase::drive;
   course_.reset();
@@ -66,7 +70,8 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   Vec to = target.to;
   if (guide_ != nullptr && advised(view, target.distance, to, decision)) return !refuted_;
   aim_ = bearing(to);
-  if (view.sighted && !course_.choose(view, to, decision.bend, behaviours_.params, wall, decision)) {
+  if ((view.sighted || course_.searches()) &&
+      !course_.choose(view, to, decision.bend, behaviours_.params, wall, decision)) {
     return detour(view, target.distance, decision);
   }
   Angle heading = course_.heading();

@@ -39,6 +39,8 @@ class Approach {
   void move_goal(Vec at) noexcept;
   /// Once per tick, also while a boundary is followed. `active`: step() is called next.
   void observe(const View& view, const Target& target, bool active, Decision& decision) noexcept;
+  /// With the rest of a tick, also then.
+  void ponder(const View& view) noexcept;
 
   /// Resets the course to straight at the goal.
   void begin() noexcept;

@@ -104,6 +104,9 @@ class BoundaryPlanner final : public GoalPlanner {
  private:
   void start(const View& view) noexcept override;
   void advance(const View& view) noexcept override;
+  void ponder(const View& view) noexcept override {
+    if (decision_.outcome == Outcome::running) approach_.ponder(view);
+  }
   void follow_goal() noexcept override { approach_.move_goal(goal_.at); }
   void act(const View& view) noexcept;
   /// An object moves, and the current behaviour results from that.

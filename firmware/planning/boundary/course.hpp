@@ -22,20 +22,29 @@ class HeadingDeflection {
 class Course {
  public:
   /// Resets the course to straight at the goal.
-  void reset() noexcept { bend_ = 0; }
+  void reset() noexcept {
+    bend_ = 0;
+    next_ = 0;
+  }
 
-  /// Once per sensor update. False: every heading within 75 degrees of the goal's is occupied. `deflection`:
-  /// see HeadingDeflection. `wall` is the side of the last obstacle: headings away from it come first. It is
-  /// updated.
+  /// Once per sensor update, and once per tick while it searches(): until then, the heading stays. False:
+  /// every heading within 75 degrees of the goal's is occupied. `deflection`: see HeadingDeflection. `wall`
+  /// is the side of the last obstacle: headings away from it come first. It is updated.
   bool choose(const View& view, const Vec& to_goal, Angle deflection, const Params& params, Side& wall,
               Decision& decision) noexcept;
+  bool searches() const noexcept { return next_ != 0; }
   Angle heading() const noexcept { return heading_; }
 
  private:
+  struct Candidate;
   void bend_towards(Angle wanted) noexcept;
+  Candidate candidate(int n, Angle target, Side wall) const noexcept;
 
   Angle heading_;
-  int32_t bend_ = 0;  // filtered; 2^-32 turn
+  int32_t bend_ = 0;   // filtered; 2^-32 turn
+  int8_t next_ = 0;    // candidate of the search
+  int8_t nearly_ = 0;  // the candidate with the least cells in its way
+  int8_t least_ = 0;   // their number, if they are few
 };
 
 }  // namespace whisker::planning

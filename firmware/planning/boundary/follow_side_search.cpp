@@ -37,14 +37,16 @@ int32_t FollowSideSearch::cost(const Exit& e) noexcept {
 void FollowSideSearch::judge(const View& view, int32_t swept) noexcept {
   const Reach& reach = view.local_grid->reach();
   Exit& mine = exit(now_);
+  Share share(view);
   for (; !mine.free && candidate_ <= kSteps; ++candidate_) {
+    if (!share.more()) return;
     const Angle heading = blocked_ + step_angle(candidate_ * sign(now_));
     const Way found = way(view, heading, reach.probe, reach.planning);
     if (found == Way::unknown && swept < step_degrees(candidate_) + kSeenBehind && swept < kLast + 15) return;
     if (found != Way::free) continue;
     mine.free = true;
     mine.heading = heading;
-    mine.turn = step_degrees(candidate_);
+    mine.turn = narrow<int16_t>(step_degrees(candidate_));
   }
 }
 
@@ -57,7 +59,7 @@ bool FollowSideSearch::step(const View& view, Twist& twist) noexcept {
                                              static_cast<int32_t>((1_deg).raw()));
   if (mine.view == 0 && swept > 0 && swept <= kLast &&
       view.moving_scan.beam[hal::kFront].distance >= kFarView) {
-    mine.view = swept;
+    mine.view = narrow<int16_t>(swept);
   }
   judge(view, swept);
   const bool complete = mine.free && mine.view > 0;

@@ -27,11 +27,11 @@ class FollowSideSearch {
 
  private:
   struct Exit {
+    Angle heading;     // of the first free path
+    int16_t turn = 0;  // to it, degrees
+    int16_t view = 0;  // to the first far view, degrees; 0: none
     bool free = false;
     bool swept = false;
-    Angle heading;     // of the first free path
-    int32_t turn = 0;  // to it, degrees
-    int32_t view = 0;  // to the first far view, degrees; 0: none
   };
   Exit& exit(Side s) noexcept { return exit_[s == Side::left ? 1 : 0]; }
   const Exit& exit(Side s) const noexcept { return exit_[s == Side::left ? 1 : 0]; }

@@ -56,7 +56,9 @@ HeadingSearch::Found HeadingSearch::step(const View& view, const Params& params,
   const Reach& reach = view.local_grid->reach();
   const Length beside = narrow ? reach.guard : reach.planning;
   found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
+  Share share(view);
   for (const int32_t all = narrow ? 3 * kCandidateHeadings : kCandidateHeadings; candidate_ < all; refuse()) {
+    if (!share.more()) return Found::nothing;
     found.angle = first_ - step * (candidate_ * sign(wall_));
     if (!may_return_ && magnitude(found.angle - back_) < kNotBack.raw()) continue;
     const Way there = way(view, found.angle, found.length, beside);

@@ -63,7 +63,7 @@ class HeadingSearch {
   Angle back_;
   static constexpr int kBack = 3;
   Vec retreat_[kBack];  // the retreat's way points, the nearest first
-  int32_t candidate_ = 0;
+  int16_t candidate_ = 0;
   Side wall_ = Side::left;
   Effort effort_ = Effort::full;
   int8_t retreated_ = 0;

@@ -19,6 +19,8 @@ class GlobalPlanner {
   virtual void move_goal(Vec at) noexcept = 0;
   /// Call once per tick, also while the guide is not used.
   virtual void observe(const View& view) noexcept = 0;
+  /// Call once per tick after that; as Planner::ponder().
+  virtual void ponder(const View& view) noexcept = 0;
   /// Where to drive in free space: `place`, relative to the body. `distance` is that of the goal.
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
   /// All headings in that direction are blocked. False: there is no better advice.

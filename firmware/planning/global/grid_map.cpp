@@ -78,6 +78,7 @@ Cell GridMap::corner_for(Vec body, Vec goal) const noexcept {
 
 void GridMap::reset(Vec body, Vec goal) noexcept {
   for (int32_t i = 0; i < kGridPlanes * shape_.size(); ++i) planes_[i] = 0;
+  notes_ = false;
   corner_ = corner_for(body, goal);
 }
 
@@ -138,14 +139,17 @@ void GridMap::doubt_all() noexcept {
   }
 }
 
-void GridMap::free(const perception::LocalGrid& local_grid, Vec body) noexcept {
+int32_t GridMap::reach_of(const perception::LocalGrid& local_grid) const noexcept {
+  return local_grid.half_window().raw() / cell_um_;
+}
+
+void GridMap::free(const perception::LocalGrid& local_grid, Vec body, int32_t row) noexcept {
   const Length radius = Length::from_raw(cell_um_ / 5 * 3);
-  const int32_t reach = local_grid.half_window().raw() / cell_um_;
+  const int32_t reach = reach_of(local_grid);
   const Cell at = place(body);
-  for (int32_t y = at.y - reach; y <= at.y + reach; ++y) {
-    for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
-      if (local_grid.all_clear(middle({x, y}), radius)) set({x, y}, CellState::free);
-    }
+  for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
+    const Cell p{x, at.y + row};
+    if (local_grid.all_clear(middle(p), radius)) set(p, CellState::free);
   }
 }
 
@@ -171,6 +175,44 @@ GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
   return *here & sure()[i] & (upright ? along & ~across : across & ~along);
 }
 
+GridWord GridMap::held(int32_t row, int w, const Hold& hold, GridWord cells) noexcept {
+  const int32_t i = row * shape_.words + w;
+  const GridWord solid = blocking()[i] & (hold.strict ? ~GridWord{0} : sure()[i]);
+  cells &= hold.strict ? solid | too_narrow(row, w) : solid;
+  if (cells == 0) return 0;
+  cells &= touched(row, w);
+  // A cell that blocks has no level, so its bits can say that it is free.
+  const GridWord news = cells & solid & ~own(hold, row, w) & ~level_high()[i];
+  level_low()[i] |= news;
+  notes_ = notes_ || news != 0;
+  return cells;
+}
+
+/// The wavefront's own cells of a word, which have a level whatever stands there.
+GridWord GridMap::own(const Hold& hold, int32_t row, int w) noexcept {
+  GridWord cells = row == hold.body.y ? columns(hold.body.x, hold.body.x, w) : 0;
+  if (row == hold.goal.y) cells |= columns(hold.goal.x, hold.goal.x, w);
+  return cells;
+}
+
+void GridMap::release(const Hold& hold) noexcept {
+  if (!notes_) return;
+  notes_ = false;
+  GridWord* const sure = this->sure();
+  GridWord* const high = level_high();
+  GridWord* const low = level_low();
+  for (int32_t i = 0; i < size_; ++i) {
+    GridWord cells = (high[i] | low[i]) & planes_[i];
+    if (!hold.strict) cells &= sure[i];
+    if (cells == 0) continue;
+    cells &= ~own(hold, i / shape_.words, static_cast<int>(i % shape_.words));
+    sure[i] |= cells;
+    planes_[i] &= ~cells;
+    high[i] &= ~cells;
+    low[i] &= ~cells;
+  }
+}
+
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
 /// where a path may enter. In a fine map a change also affects the room one cell further.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
@@ -178,8 +220,10 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   const int32_t reach = shape_.fine() ? 2 : 1;
   if (row < reach || row >= shape_.rows - reach) return ~GridWord{0};
   GridWord near = 0;
+  const GridWord* const high = level_high();
+  const GridWord* const low = level_low();
   for (int32_t i = (row - reach) * words + w; i <= (row + reach) * words + w; i += words) {
-    const auto levels = [this](int32_t at) { return level_high()[at] | level_low()[at]; };
+    const auto levels = [&](int32_t at) { return high[at] | low[at]; };
     const GridWord left = w == 0 ? ~GridWord{0} : levels(i - 1);
     const GridWord here = levels(i);
     const GridWord right = w == words - 1 ? ~GridWord{0} : levels(i + 1);
@@ -191,20 +235,21 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool doubts) noexcept {
+int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold* hold,
+                      bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
   };
   const int32_t x = from_corner(beam.apex.x, corner_.x);
   const int32_t y = from_corner(beam.apex.y, corner_.y);
-  if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return;
+  if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return 0;
   const int32_t distance = units(observation.free);
   const int32_t seen = distance < far_ ? distance : far_;
   const bool echo = observation.hit && distance < far_;
   const perception::Wedge cone(beam.axis, beam.half_cone);
   const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
-  if (reach < 0) return;
+  if (reach < 0) return 0;
   const bool within_cone = !echo || beam.half_cone.raw() >= kSuspectHalf.raw();
   const perception::Wedge::Extent extent =
       (within_cone ? cone : perception::Wedge(beam.axis, kSuspectHalf)).extent(reach);
@@ -215,6 +260,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
   const bool upright = magnitude(beam.axis + beam.axis) > (90_deg).raw();
   // Readings of a narrow cone one after another free a cell together.
   const int32_t across = beam.half_cone.raw() < kNarrow.raw() ? 0 : kInside;
+  GridWord* const sure = this->sure();
   Box box;
   bool takes_back = false;
   const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
@@ -230,7 +276,8 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      const GridWord freed = takes_back ? 0 : sure()[i] & ~blocking()[i];
+      GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
+      if (hold != nullptr) freed |= noted(i, hold->strict);
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);
@@ -248,15 +295,13 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
       if (doubts) cells &= ~oblique(row, w, upright);
-      if (hold) {
-        const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
-        if (closed != 0) cells &= ~(closed & touched(row, w));
-      }
-      sure()[i] |= cells;
-      blocking()[i] &= ~cells;
+      if (hold != nullptr) cells &= ~held(row, w, *hold, cells);
+      sure[i] |= cells;
+      planes_[i] &= ~cells;
     }
   }
-  if (!echo) return;
+  const int32_t rows = last < first ? 0 : last - first + 1;
+  if (!echo) return rows;
   const perception::Wedge core(beam.axis, kSuspectHalf);
   const auto find = [&] {
     for (int32_t row = first; row <= last; ++row) {
@@ -279,12 +324,17 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
                       (wide.x * wide.x + wide.y * wide.y) * kUnitsPerCell * kUnitsPerCell <=
                           most / kUnitsPerCell * (most / kUnitsPerCell);
   for (int32_t row = first; row <= last; ++row) {
-    arc(narrow ? cone : core, row, [&](int32_t i, int, GridWord cells) {
-      const GridWord news = narrow ? cells : cells & ~blocking()[i];
-      blocking()[i] |= news;
-      sure()[i] = narrow ? sure()[i] | news : sure()[i] & ~news;
+    arc(narrow ? cone : core, row, [&](int32_t i, int w, GridWord cells) {
+      const GridWord news = narrow ? cells : cells & ~planes_[i];
+      planes_[i] |= news;
+      sure[i] = narrow ? sure[i] | news : sure[i] & ~news;
+      if (hold == nullptr || !(narrow || hold->strict)) return;
+      const GridWord level = ~news | own(*hold, row, w);
+      level_high()[i] &= level;
+      level_low()[i] &= level;
     });
   }
+  return rows * 3;
 }
 
 }  // namespace whisker::planning

@@ -3,8 +3,9 @@
 namespace whisker::planning {
 namespace {
 
-constexpr int32_t kBeyond = 6;   // levels past the body's, for the cells around the body
-constexpr int32_t kDetour = 20;  // levels: extra cost of a detour outside the window
+constexpr int32_t kLevelWords = 3;  // that the end of a level takes as long as
+constexpr int32_t kBeyond = 6;      // levels past the body's, for the cells around the body
+constexpr int32_t kDetour = 20;     // levels: extra cost of a detour outside the window
 
 int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 
@@ -40,7 +41,8 @@ void Wavefront::begin(GridMap& map, const Task& task) noexcept {
   *this = Wavefront{};
   task_ = task;
   over_ = false;
-  for (int32_t i = 0; i < 2 * map.shape().size(); ++i) map.level_high()[i] = 0;
+  GridWord* const levels = map.level_high();
+  for (int32_t i = 2 * map.shape().size(); i-- > 0;) levels[i] = 0;
   if (map.holds(task.goal)) {
     const int32_t i = task.goal.y * map.shape().words + task.goal.x / kWordBits;
     map.level_low()[i] |= GridWord{1} << (task.goal.x % kWordBits);
@@ -97,7 +99,8 @@ bool Wavefront::reaches_border(const GridMap& map) const noexcept {
   const int words = map.shape().words;
   const int32_t rows = map.shape().rows;
   const auto labelled = [&](int32_t row, int w) {
-    return map.level_high()[row * words + w] | map.level_low()[row * words + w];
+    const int32_t i = row * words + w;
+    return (map.level_high()[i] | map.level_low()[i]) & ~map.noted(i, task_.strict);
   };
   GridWord any = 0;
   for (int w = 0; w < words; ++w) any |= labelled(0, w) | labelled(rows - 1, w);
@@ -130,15 +133,17 @@ class Wavefront::Rows {
         low_(map.level_low()),
         any_state_(wavefront.task_.strict ? ~GridWord{0} : 0),
         cramps_(wavefront.task_.strict && map.shape().fine()),
-        body_inside_(map.holds(wavefront.task_.body)) {
+        body_row_(map.holds(wavefront.task_.body) ? wavefront.task_.body.y : kNone),
+        goal_row_(map.holds(wavefront.task_.goal) ? wavefront.task_.goal.y : kNone),
+        words_(shape_.words) {
     begin_level();
   }
   Rows(const Rows&) = delete;
   Rows& operator=(const Rows&) = delete;
 
   void begin_level() noexcept;
-  /// Spreads to the next row of the level; the first row may be any.
-  void spread(int32_t row) noexcept;
+  /// Spreads to these rows, the next of the level; the first row may be any.
+  void spread(int32_t row, int32_t end) noexcept;
 
  private:
   /// The words of a row, with an empty word on either side.
@@ -152,8 +157,9 @@ class Wavefront::Rows {
   void read(int32_t row, Row& to) const noexcept;
   // Not inlined, so that read() keeps its words in registers: most maps have no too_narrow cells.
   [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
-  void move_on(int32_t row) noexcept;
-  GridWord entering(int32_t row, int w) const noexcept;
+  [[gnu::noinline]] void stand_out(Cell at, Row& to) const noexcept;
+  void spread(int32_t row, const Row& above, const Row& here, const Row& below) noexcept;
+  [[gnu::noinline]] GridWord entering(int32_t row, int w, GridWord fresh) const noexcept;
 
   Wavefront& wavefront_;
   const GridMap& map_;
@@ -162,9 +168,12 @@ class Wavefront::Rows {
   const GridWord* const sure_;
   GridWord* const high_;
   GridWord* const low_;
-  const GridWord any_state_;  // suspected cells also block
-  const bool cramps_;         // too_narrow cells also block
-  const bool body_inside_;
+  const GridWord any_state_;            // suspected cells also block
+  const bool cramps_;                   // too_narrow cells also block
+  static constexpr int32_t kNone = -2;  // rows -1 and beyond the last are empty
+  const int32_t body_row_;
+  const int32_t goal_row_;
+  const int words_;
   Row row_[3];
   Row* above_ = &row_[0];
   Row* here_ = &row_[1];
@@ -201,13 +210,13 @@ void Wavefront::Rows::begin_level() noexcept {
   not_low_ = all(phase == 2);
 }
 
-void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
+inline void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
+  const int words = words_;
   to.any = 0;
   if (row < 0 || row >= shape_.rows) {
-    for (int w = 1; w <= shape_.words; ++w) to.front[w] = to.open[w] = to.fresh[w] = 0;
+    for (int w = 1; w <= words; ++w) to.front[w] = to.open[w] = to.fresh[w] = 0;
     return;
   }
-  const int words = shape_.words;
   const int32_t first = row * words;
   const GridWord* const blocking = blocking_ + first;
   const GridWord* const sure = sure_ + first;
@@ -220,8 +229,8 @@ void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
   for (int w = 0; w < words; ++w) {
     const GridWord h = high[w];
     const GridWord l = low[w];
-    const GridWord front = (h ^ not_high) & (l ^ not_low);
     const GridWord open = ~(blocking[w] & (sure[w] | any_state));
+    const GridWord front = (h ^ not_high) & (l ^ not_low) & open;
     any |= front;
     to.front[w + 1] = front;
     to.open[w + 1] = open;
@@ -229,12 +238,21 @@ void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
   }
   to.any = any;
   if (cramps_) cramp(row, to);
-  const Cell& body = wavefront_.task_.body;
-  if (row != body.y || !body_inside_) return;
-  const int w = static_cast<int>(body.x / kWordBits);
-  const GridWord bit = GridWord{1} << (body.x % kWordBits);
+  if (row == goal_row_) stand_out(wavefront_.task_.goal, to);
+  if (row == body_row_) stand_out(wavefront_.task_.body, to);
+}
+
+/// The level of this cell counts, whatever stands there, and the body's is open.
+void Wavefront::Rows::stand_out(Cell at, Row& to) const noexcept {
+  const int w = static_cast<int>(at.x / kWordBits);
+  const int32_t i = at.y * shape_.words + w;
+  const GridWord bit = GridWord{1} << (at.x % kWordBits);
+  const GridWord front = (high_[i] ^ not_high_) & (low_[i] ^ not_low_) & bit;
+  to.front[w + 1] |= front;
+  to.any |= front;
+  if (!(at == wavefront_.task_.body)) return;
   to.open[w + 1] |= bit;
-  to.fresh[w + 1] |= bit & ~(high[w] | low[w]);
+  to.fresh[w + 1] |= bit & ~(high_[i] | low_[i]);
 }
 
 void Wavefront::Rows::cramp(int32_t row, Row& to) const noexcept {
@@ -245,43 +263,48 @@ void Wavefront::Rows::cramp(int32_t row, Row& to) const noexcept {
   }
 }
 
-void Wavefront::Rows::move_on(int32_t row) noexcept {
-  if (first_) {
-    read(row - 1, *above_);
-    read(row, *here_);
-    first_ = false;
-  } else {
-    Row* const oldest = above_;
-    above_ = here_;
-    here_ = below_;
-    below_ = oldest;
-  }
-  read(row + 1, *below_);
-}
-
-GridWord Wavefront::Rows::entering(int32_t row, int w) const noexcept {
+GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noexcept {
   const Cell& goal = wavefront_.task_.goal;
   GridWord border = w == 0 ? left_ : 0;
   if (w == shape_.words - 1) border |= right_;
   if ((row == 0 && top_) || (row == shape_.rows - 1 && bottom_)) border = ~GridWord{0};
-  if (border == 0) return 0;
+  if ((border & fresh) == 0) return 0;
   const int32_t half = half_width(wavefront_.level_ - wavefront_.detour_, row - goal.y);
   return border & columns(goal.x - half, goal.x + half, w);
 }
 
-void Wavefront::Rows::spread(int32_t row) noexcept {
-  move_on(row);
-  const Row& above = *above_;
-  const Row& here = *here_;
-  const Row& below = *below_;
-  if ((above.any | here.any | below.any) == 0 && !enters_) return;
-  const int words = shape_.words;
+void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
+  Row* above = above_;
+  Row* here = here_;
+  Row* below = below_;
+  if (first_) {
+    read(row - 1, *above);
+    read(row, *here);
+    first_ = false;
+  }
+  for (; row < end; ++row) {
+    read(row + 1, *below);
+    if ((above->any | here->any | below->any) != 0 || enters_) spread(row, *above, *here, *below);
+    Row* const oldest = above;
+    above = here;
+    here = below;
+    below = oldest;
+  }
+  above_ = above;
+  here_ = here;
+  below_ = below;
+}
+
+inline void Wavefront::Rows::spread(int32_t row, const Row& above, const Row& here,
+                                    const Row& below) noexcept {
+  const int words = words_;
+  const bool diagonal = diagonal_;
   for (int w = 1; w <= words; ++w) {
     const GridWord fresh = here.fresh[w];
     if (fresh == 0) continue;
     GridWord news =
         beside(here.front[w - 1], here.front[w], here.front[w + 1]) | above.front[w] | below.front[w];
-    if (diagonal_) {
+    if (diagonal) {
       // Not across a blocked corner: only over cells that are open in both rows.
       const GridWord* const open = here.open + w;
       const GridWord* const a = above.front + w;
@@ -289,7 +312,7 @@ void Wavefront::Rows::spread(int32_t row) noexcept {
       news |= beside(a[-1] & open[-1], a[0] & open[0], a[1] & open[1]) & above.open[w];
       news |= beside(b[-1] & open[-1], b[0] & open[0], b[1] & open[1]) & below.open[w];
     }
-    if (enters_) news |= entering(row, w - 1);
+    if (enters_) news |= entering(row, w - 1, fresh);
     news &= fresh;
     if (news == 0) continue;
     if (row < wavefront_.new_low_) wavefront_.new_low_ = row;
@@ -300,18 +323,23 @@ void Wavefront::Rows::spread(int32_t row) noexcept {
   }
 }
 
-bool Wavefront::run(GridMap& map, int32_t words) noexcept {
+bool Wavefront::run(GridMap& map, int32_t words, int32_t* spare) noexcept {
   Rows rows(*this, map);
   while (!over_ && words > 0) {
     if (row_ <= last_) {
-      rows.spread(row_++);
-      words -= map.shape().words;
+      const int32_t width = map.shape().words;
+      const int32_t some = (words - 1) / width + 1;
+      const int32_t end = some < last_ + 1 - row_ ? row_ + some : last_ + 1;
+      words -= (end - row_) * width;
+      rows.spread(row_, end);
+      row_ = end;
     } else {
       over_ = end_level(map);
       rows.begin_level();
-      --words;
+      words -= kLevelWords;
     }
   }
+  if (spare != nullptr) *spare = words;
   return over_;
 }
 
@@ -328,28 +356,50 @@ int Wavefront::phase(const GridMap& map, Cell p) const noexcept {
   return static_cast<int>(code) - 1;
 }
 
+/// The cells x - 1 to x + 1 of a row as its lowest three bits; those outside the window are empty.
+GridWord Wavefront::three(const GridMap& map, const GridWord* plane, Cell p) noexcept {
+  if (p.y < 0 || p.y >= map.shape().rows) return 0;
+  const int32_t first = p.y * map.shape().words;
+  const int w = static_cast<int>(p.x / kWordBits);
+  const int32_t bit = p.x % kWordBits;
+  const GridWord* const row = plane + first + w;
+  if (bit > 0 && bit < kWordBits - 1) return *row >> (bit - 1) & 7U;
+  if (bit == 0) return (*row << 1 & 6U) | (w > 0 ? row[-1] >> (kWordBits - 1) : 0);
+  return (*row >> (kWordBits - 2) & 3U) | (w < map.shape().words - 1 ? (row[1] & 1U) << 2 : 0);
+}
+
 bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexcept {
   const int here = phase(map, p);
   if (here < 0) return false;
   const int nearer = (here + 2) % 3;
+  // Of the three rows around, the cells of the level below, and of this level or that.
+  GridWord below[3];
+  GridWord near[3];
+  for (int32_t row = 0; row < 3; ++row) {
+    const Cell at = p + Cell{0, row - 1};
+    const GridWord high = three(map, map.level_high(), at);
+    const GridWord low = three(map, map.level_low(), at);
+    const auto of = [&](int n) { return (n == 0 ? ~high : high) & (n == 1 ? ~low : low); };
+    below[row] = of(nearer);
+    near[row] = below[row] | of(here);
+  }
+  constexpr GridWord kLeft = 1, kMiddle = 2, kRight = 4;
+  // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
+  const GridWord beside = near[1];
+  for (int row = 0; row < 3; row += 2) {
+    const bool straight = (near[row] & kMiddle) != 0;
+    if (!straight || (beside & kLeft) == 0) below[row] &= ~kLeft;
+    if (!straight || (beside & kRight) == 0) below[row] &= ~kRight;
+  }
   int64_t best = INT64_MAX;
-  for (int32_t dy = -1; dy <= 1; ++dy) {
-    for (int32_t dx = -1; dx <= 1; ++dx) {
-      const Cell q = p + Cell{dx, dy};
-      if (phase(map, q) != nearer) continue;
-      if (dx != 0 && dy != 0) {
-        // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
-        const int a = phase(map, p + Cell{dx, 0});
-        const int b = phase(map, p + Cell{0, dy});
-        const auto near = [&](int n) { return n == here || n == nearer; };
-        if (!near(a) || !near(b)) continue;
-      }
-      const Cell rest = aim - q;
-      const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
-      if (far < best) {
-        best = far;
-        on = q;
-      }
+  for (int32_t n = 0; n < 9; ++n) {
+    if ((below[n / 3] >> (n % 3) & 1U) == 0) continue;
+    const Cell q = p + Cell{n % 3 - 1, n / 3 - 1};
+    const Cell rest = aim - q;
+    const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
+    if (far < best) {
+      best = far;
+      on = q;
     }
   }
   return best != INT64_MAX;

@@ -28,9 +28,15 @@ class Wavefront {
   /// Until it is done, the window must not move, and blocked cells may become passable only where the
   /// wavefront has not arrived (see GridMap::mark).
   void begin(GridMap& map, const Task& task) noexcept;
-  /// Processes this number of words of rows, and up to one row more. True: done.
-  bool run(GridMap& map, int32_t words) noexcept;
+  /// Processes this number of words of rows, and up to one row more. True: done. `spare`: what was left of
+  /// them, if positive.
+  bool run(GridMap& map, int32_t words, int32_t* spare = nullptr) noexcept;
 
+  bool over() const noexcept { return over_; }
+  bool strict() const noexcept { return task_.strict; }
+  /// While it runs.
+  GridMap::Hold hold() const noexcept { return {task_.body, task_.goal, task_.strict}; }
+  const Cell& goal() const noexcept { return task_.goal; }
   bool reached() const noexcept { return reached_ >= 0; }
   /// The level of the body.
   int32_t level() const noexcept { return reached_; }
@@ -49,6 +55,7 @@ class Wavefront {
  private:
   class Rows;
   enum class Entry : uint8_t { goal, facing_border, any_border };
+  static GridWord three(const GridMap& map, const GridWord* plane, Cell p) noexcept;
   GridWord passable(const GridMap& map, int32_t row, int w) const noexcept;
   void begin_level(const GridMap& map) noexcept;
   bool end_level(GridMap& map) noexcept;

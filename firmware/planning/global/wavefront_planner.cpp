@@ -5,8 +5,17 @@
 namespace whisker::planning {
 namespace {
 
-constexpr int32_t kRowsATick = 800;
 constexpr int32_t kEvery = 16;
+constexpr uint8_t kMostKept = 1;  // plans in a row that keep a wavefront that is still open
+// Units of Work:
+constexpr int32_t kMarkUnits = 30;
+constexpr int32_t kMarkRowUnits = 3;  // of a row that a mark looks at,
+constexpr int32_t kHeldRowUnits = 6;  // and while a wavefront is under way
+constexpr int32_t kCellUnits = 8;     // of a step on the way
+constexpr int32_t kLineUnits = 2;     // of a cell on a straight line
+constexpr int32_t kWordsMovedAUnit = 2;
+constexpr int32_t kWordsOfUnits = 4;
+constexpr int32_t kEndUnits = 200;   // of the end of a wavefront
 constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells that are far away
 constexpr Length kLittle = 400_mm;   // the same if they are at hand
 constexpr Length kFarAway = 1500_mm;
@@ -57,13 +66,14 @@ void WavefrontPlanner::observe(const View& view) noexcept {
     active_ = true;
     last_try_ = false;
   }
-  const bool hold = stage_ != Stage::idle;
+  const GridMap::Hold hold = wavefront_.hold();
   for (int i = 0; i < hal::kBeams; ++i) {
-    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold, view.doubts);
+    if ((view.observed >> i & 1U) == 0) continue;
+    const int32_t rows = map_.mark(view.observations[i], floods() ? &hold : nullptr, view.doubts);
+    view.local_grid->work().add(kMarkUnits + rows * (floods() ? kHeldRowUnits : kMarkRowUnits));
   }
-  const Cell body = map_.place(view.pose.at);
-  if (!hold) map_.set(body, CellState::free);
-  plan(view);
+  if (!floods()) map_.set(map_.place(view.pose.at), CellState::free);
+  ++ticks_;
 }
 
 void WavefrontPlanner::place_virtual_obstacles() noexcept {
@@ -99,45 +109,134 @@ void WavefrontPlanner::begin(Stage stage, const View& view) noexcept {
   wavefront_.begin(map_, task);
 }
 
-void WavefrontPlanner::plan(const View& view) noexcept {
-  ++ticks_;
-  if (stage_ == Stage::idle) {
-    if (ticks_ < kEvery && !waits_) return;
-    ticks_ = 0;
-    map_.follow(view.pose.at, goal_.at);
-    map_.free(*view.local_grid, view.pose.at);
-    place_virtual_obstacles();
-    place_contacts(view);
-    begin(Stage::strict, view);
+void WavefrontPlanner::ponder(const View& view) noexcept {
+  switch (stage_) {
+    case Stage::idle:
+      if (waits_ || ticks_ >= kEvery) prepare(view);
+      return;
+    case Stage::copy: copy(view); return;
+    case Stage::ready: begin_plan(view); return;
+    case Stage::strict:
+    case Stage::passing: flood(view); return;
+    case Stage::look: look_on(view); return;
+  }
+}
+
+void WavefrontPlanner::flood(const View& view) noexcept {
+  const Work& work = view.local_grid->work();
+  if (!wavefront_.over()) {
+    const int32_t words = work.left() * kWordsOfUnits / units_of_words();
+    int32_t spare = 0;
+    const bool over = wavefront_.run(map_, words, &spare);
+    work.add((words - spare) * units_of_words() / kWordsOfUnits);
+    if (!over || work.left() < kEndUnits) return;
+  }
+  map_.release(wavefront_.hold());
+  work.add(kEndUnits);
+  end_wavefront(view);
+}
+
+void WavefrontPlanner::prepare(const View& view) noexcept {
+  const Work& work = view.local_grid->work();
+  // A large window takes long to move.
+  if (map_.follow(view.pose.at, goal_.at)) {
+    work.add(map_.shape().size() / kWordsMovedAUnit);
+    kept_ = kMostKept;
     return;
   }
-  if (!wavefront_.run(map_, kRowsATick * map_.shape().words)) return;
-  switch (stage_) {
-    case Stage::idle: break;
-    case Stage::strict:
-      strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
-      if (!wavefront_.outside() &&
-          strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= levels(kLittle)) {
-        shut_ = false;
-        break;
-      }
-      begin(Stage::passing, view);
-      return;
-    case Stage::passing:
-      no_way_ = !wavefront_.reached();
-      shut_ = no_way_ || (wavefront_.outside() && map_.holds(map_.place(goal_.at)));
-      if (!wavefront_.reached()) {
-        has_way_ = false;
-        stage_ = Stage::idle;
-        waits_ = false;
-        return;
-      }
-      if (strict_ - wavefront_.level() > accepted(view)) break;
-      begin(Stage::again, view);
-      return;
-    case Stage::again: break;
+  ticks_ = 0;
+  more_ = narrow<int16_t>(2 * map_.reach_of(*view.local_grid) + 1);
+  stage_ = Stage::copy;
+  copy(view);
+}
+
+/// What the local grid knows, before the plan begins.
+void WavefrontPlanner::copy(const View& view) noexcept {
+  const int32_t reach = map_.reach_of(*view.local_grid);
+  while (more_ > 0 && view.local_grid->work().left() > 0) {
+    --more_;
+    map_.free(*view.local_grid, view.pose.at, more_ - reach);
   }
-  finish(view);
+  if (more_ > 0) return;
+  place_virtual_obstacles();
+  place_contacts(view);
+  stage_ = Stage::ready;
+  if (view.local_grid->work().left() > kEndUnits) begin_plan(view);
+}
+
+void WavefrontPlanner::begin_plan(const View& view) noexcept {
+  if (!waits_ && kept_ < kMostKept && still_open(view)) {
+    ++kept_;
+    doubts_ = false;
+    find_way(view);
+    return;
+  }
+  kept_ = 0;
+  begin(Stage::strict, view);
+}
+
+/// The last wavefront still leads from here around all that blocks, and no better one has been asked for.
+bool WavefrontPlanner::still_open(const View& view) const noexcept {
+  if (!has_way_ || !wavefront_.strict() || wavefront_.goal() != map_.place(goal_.at)) return false;
+  Cell p = map_.place(view.pose.at);
+  if (wavefront_.phase(map_, p) < 0) return false;
+  const Cell goal = wavefront_.goal();
+  // Farther away, the beams see nothing.
+  for (int32_t more = reference(kHorizon).raw() / map_.cell().raw(); more > 0; --more) {
+    view.local_grid->work().add(kCellUnits);
+    if (!wavefront_.next(map_, p, goal, p)) return p == goal || map_.at_rim(p);
+    if (wavefront_.blocked(map_, p)) return false;
+  }
+  return true;
+}
+
+void WavefrontPlanner::end_wavefront(const View& view) noexcept {
+  if (stage_ == Stage::strict) {
+    strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
+    doubts_ = wavefront_.outside() ||
+              strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) > levels(kLittle);
+    if (!doubts_) shut_ = false;
+    // The way of this wavefront is the one to take if suspect cells make it little longer.
+    if (wavefront_.reached()) {
+      find_way(view);
+    } else {
+      begin(Stage::passing, view);
+    }
+    return;
+  }
+  no_way_ = !wavefront_.reached();
+  shut_ = no_way_ || (wavefront_.outside() && map_.holds(map_.place(goal_.at)));
+  if (no_way_) {
+    has_way_ = false;
+    end_plan();
+  } else if (strict_ - wavefront_.level() > accepted(view)) {
+    doubts_ = false;
+    find_way(view);
+  } else {
+    has_way_ = true;
+    way_ = seen_;
+    end_plan();
+  }
+}
+
+/// The way is found, and at the end of a plan the body takes it.
+void WavefrontPlanner::take_way(const View& view) noexcept {
+  if (doubts_) {
+    begin(Stage::passing, view);
+    return;
+  }
+  has_way_ = true;
+  no_way_ = false;
+  way_ = seen_;
+  end_plan();
+}
+
+void WavefrontPlanner::drop_plan() noexcept {
+  if (floods()) map_.release(wavefront_.hold());
+  stage_ = Stage::idle;
+}
+
+void WavefrontPlanner::end_plan() noexcept {
   stage_ = Stage::idle;
   waits_ = false;
 }
@@ -155,8 +254,14 @@ int32_t WavefrontPlanner::accepted(const View& view) const noexcept {
   return steps == most ? levels(kDearer) : levels(kLittle) + steps / 2;
 }
 
-bool WavefrontPlanner::sees(Vec from, Vec to) const noexcept {
-  return raytrace(map_, from, to, [this](Cell p) { return !wavefront_.blocked(map_, p); });
+bool WavefrontPlanner::sees(const View& view, Vec to) const noexcept {
+  int32_t cells = 0;
+  const bool open = raytrace(map_, view.pose.at, to, [&](Cell p) {
+    ++cells;
+    return !wavefront_.blocked(map_, p);
+  });
+  view.local_grid->work().add((cells + 4) * kLineUnits);
+  return open;
 }
 
 /// Extra cost of the straight line over the best path; the maximum if an obstacle blocks the line.
@@ -186,34 +291,42 @@ bool WavefrontPlanner::straight(const View& view) const noexcept {
   return dearer(view.pose.at, view.pose.at + ahead) <= reference(kSlack);
 }
 
-void WavefrontPlanner::finish(const View& view) noexcept {
-  const bool had_way = has_way_;
-  has_way_ = true;
-  no_way_ = false;
+void WavefrontPlanner::find_way(const View& view) noexcept {
+  on_ = map_.place(view.pose.at);
   if (straight(view)) {
-    way_ = goal_.at;
+    seen_ = goal_.at;
+  } else if (has_way_ && farther(way_ - view.pose.at, reference(kReached)) &&
+             dearer(view.pose.at, way_) <= reference(kKept)) {
+    seen_ = way_;
+  } else if (wavefront_.phase(map_, on_) < 0) {
+    has_way_ = no_way_ = false;
+    end_plan();
+    return;
+  } else {
+    stage_ = Stage::look;
+    first_ = true;
+    more_ = narrow<int16_t>(reference(kHorizon).raw() / map_.cell().raw());
+    seen_ = goal_.at;
+    look_on(view);
     return;
   }
-  if (had_way && farther(way_ - view.pose.at, reference(kReached)) &&
-      dearer(view.pose.at, way_) <= reference(kKept)) {
-    return;
-  }
+  take_way(view);
+}
+
+/// The way point is the farthest cell of the way that the body sees.
+void WavefrontPlanner::look_on(const View& view) noexcept {
+  const Work& work = view.local_grid->work();
   const Cell goal = map_.place(goal_.at);
-  Cell p = map_.place(view.pose.at);
-  if (wavefront_.phase(map_, p) < 0) {
-    has_way_ = false;
-    return;
+  while (more_ > 0) {
+    if (work.left() <= 0) return;
+    --more_;
+    if (!wavefront_.next(map_, on_, goal, on_)) break;
+    const Vec at = on_ == goal ? goal_.at : map_.middle(on_);
+    work.add(kCellUnits);
+    if (first_ || sees(view, at)) seen_ = at;
+    first_ = false;
   }
-  const int32_t most = reference(kHorizon).raw() / map_.cell().raw();
-  Cell on = p;
-  bool first = true;
-  for (int32_t i = 0; i < most && wavefront_.next(map_, p, goal, on); ++i) {
-    p = on;
-    const Vec at = p == goal ? goal_.at : map_.middle(p);
-    if (first || sees(view.pose.at, at)) way_ = at;
-    first = false;
-  }
-  if (first) way_ = goal_.at;
+  take_way(view);
 }
 
 /// Whether the robot drove too far without getting nearer to the goal.
@@ -245,9 +358,9 @@ void WavefrontPlanner::bar(Vec at) noexcept {
 bool WavefrontPlanner::doubt() noexcept {
   if (shut_ || last_try_) return false;
   last_try_ = true;
+  drop_plan();
   map_.doubt_all();
   for (VirtualObstacle& b : virtual_obstacles_) b = {};
-  stage_ = Stage::idle;
   has_way_ = false;
   waits_ = active_ = true;
   refusals_ = 0;
@@ -262,7 +375,7 @@ bool WavefrontPlanner::refuse(const View& view) noexcept {
     return last_try_;
   }
   bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));
-  stage_ = Stage::idle;
+  drop_plan();
   waits_ = true;
   return true;
 }

@@ -20,6 +20,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   void start(const View& view, const Goal& goal) noexcept override;
   void move_goal(Vec at) noexcept override;
   void observe(const View& view) noexcept override;
+  void ponder(const View& view) noexcept override;
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
   bool knows_no_way() const noexcept override { return no_way_ || last_try_; }
@@ -31,20 +32,35 @@ class WavefrontPlanner final : public GlobalPlanner {
   bool planned() const noexcept { return stage_ == Stage::idle && !waits_; }
 
  private:
-  enum class Stage : uint8_t { idle, strict, passing, again };
+  /// Beside the wavefronts, `look` examines the way that one has found.
+  enum class Stage : uint8_t { idle, copy, ready, strict, passing, look };
   struct VirtualObstacle {
     Vec at;
     int32_t until_mm = 0;
   };
 
   void begin(Stage stage, const View& view) noexcept;
-  void plan(const View& view) noexcept;
-  void finish(const View& view) noexcept;
+  /// A wavefront is under way.
+  bool floods() const noexcept { return stage_ == Stage::strict || stage_ == Stage::passing; }
+  /// Gives the plan under way up.
+  void drop_plan() noexcept;
+  void flood(const View& view) noexcept;
+  void prepare(const View& view) noexcept;
+  void copy(const View& view) noexcept;
+  void begin_plan(const View& view) noexcept;
+  void end_wavefront(const View& view) noexcept;
+  bool still_open(const View& view) const noexcept;
+  void find_way(const View& view) noexcept;
+  void take_way(const View& view) noexcept;
+  void look_on(const View& view) noexcept;
+  void end_plan() noexcept;
   Length dearer(Vec from, Vec to) const noexcept;
   int32_t accepted(const View& view) const noexcept;
   int32_t levels(Length l) const noexcept;
   bool straight(const View& view) const noexcept;
-  bool sees(Vec from, Vec to) const noexcept;
+  bool sees(const View& view, Vec to) const noexcept;
+  /// Of Work, for kWordsOfUnits of the wavefront.
+  int32_t units_of_words() const noexcept { return map_.shape().fine() ? 4 : 3; }
   void place_virtual_obstacles() noexcept;
   void place_contacts(const View& view) noexcept;
   bool spent() const noexcept;
@@ -65,12 +81,18 @@ class WavefrontPlanner final : public GlobalPlanner {
   bool active_ = true;
   int8_t refusals_ = 0;
   int8_t attempts_ = 0;  // finished attempts with the map
+  uint8_t kept_ = 0;     // plans in a row for which the wavefront was kept
+  bool first_ = false;   // no cell of the way has been looked at
+  bool doubts_ = false;  // a way that passes suspect cells may be much shorter
   int32_t strict_ = 0;   // levels to the body if suspect cells block
   int32_t ticks_ = 0;    // since the current plan started
+  Cell on_;              // of the way, looked at last
+  Vec seen_;             // the farthest place on it that the body sees: the way point to be
   ClosestApproach best_;
   int32_t improved_mm_ = 0;  // travel at the last improvement
   uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
+  int16_t more_ = 0;  // cells of the way to look at, or rows to copy
   int8_t newest_ = 0;
   static constexpr int kVirtualObstacles = 4;
   VirtualObstacle virtual_obstacles_[kVirtualObstacles];

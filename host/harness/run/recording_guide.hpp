@@ -25,6 +25,7 @@ class RecordingGuide final : public planning::GlobalPlanner {
     body_ = view.pose.at;
     guide_.observe(view);
   }
+  void ponder(const planning::View& view) noexcept override { guide_.ponder(view); }
   Advice advise(const planning::View& view, Length distance, Vec& place) noexcept override {
     const Advice advice = guide_.advise(view, distance, place);
     way_ = view.pose.at + place;

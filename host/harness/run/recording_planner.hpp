@@ -15,6 +15,7 @@ class RecordingPlanner final : public planning::Planner {
     view_ = view;
     return planner_.step(view);
   }
+  void ponder(const planning::View& view) noexcept override { planner_.ponder(view); }
   /// The view of the last step.
   const planning::View& view() const { return view_; }
   /// Null before the first step.

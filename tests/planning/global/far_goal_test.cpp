@@ -58,8 +58,10 @@ Cost cost_of(Vec from, Vec to) {
   Cost cost;
   std::mt19937 random(1);
   const auto draw = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
-  for (int tick = 0; tick < 6000; ++tick) {
-    const int since = tick % 400;
+  // A plan of a large map takes some seconds.
+  constexpr int kDrive = kBytes > 8192 ? 2000 : 400;
+  for (int tick = 0; tick < 15 * kDrive; ++tick) {
+    const int since = tick % kDrive;
     if (since == 0) {
       view.pose = {from, bearing(to - from)};
       local_grid.reset(view.pose);
@@ -79,7 +81,10 @@ Cost cost_of(Vec from, Vec to) {
       }
     }
     g_cells = 0;
+    local_grid.begin_tick();
     map->guide.observe(view);
+    local_grid.work().begin_rest();
+    map->guide.ponder(view);
     view.observed = 0;
     cost.worst = std::max(cost.worst, g_cells);
     Vec place;

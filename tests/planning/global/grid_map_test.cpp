@@ -88,7 +88,7 @@ TEST(GridMap, StandsStillWhileTheBodyIsWellInside) {
 
 TEST(GridMap, ABeamThatSeesNothingFreesTheCellsWithinIt) {
   test::Room room(kShape);
-  room.map.mark(observation(kFrom, Angle{}, 2_m, false), false);
+  room.map.mark(observation(kFrom, Angle{}, 2_m, false));
   EXPECT_EQ(room.map.at(room.map.place({1_m, Length{}})), CellState::free);
   EXPECT_EQ(room.map.at(room.map.place({1800_mm, 50_mm})), CellState::free);
   EXPECT_EQ(room.map.at(room.map.place({2100_mm, Length{}})), CellState::unknown);
@@ -98,10 +98,10 @@ TEST(GridMap, ABeamThatSeesNothingFreesTheCellsWithinIt) {
 
 TEST(GridMap, ANearEchoIsSureAndAFarOneIsNot) {
   test::Room near(kShape);
-  near.map.mark(observation(kFrom, Angle{}, 200_mm, true), false);
+  near.map.mark(observation(kFrom, Angle{}, 200_mm, true));
   EXPECT_EQ(near.map.at(near.map.place({250_mm, 50_mm})), CellState::occupied);
   test::Room far(kShape);
-  far.map.mark(observation(kFrom, Angle{}, 900_mm, true), false);
+  far.map.mark(observation(kFrom, Angle{}, 900_mm, true));
   EXPECT_EQ(far.map.at(far.map.place({950_mm, 50_mm})), CellState::suspect);
   EXPECT_EQ(far.map.at(far.map.place({550_mm, 50_mm})), CellState::free);
 }
@@ -112,7 +112,7 @@ TEST(GridMap, ABeamAlongAWallThatItMayLoseFreesNoneOfIt) {
     for (int32_t x = 0; x < 1000; x += 100) {
       room.map.set(room.map.place({millimetres(x + 50), 250_mm}), CellState::occupied);
     }
-    room.map.mark(observation(at, axis, 2_m, false), false, loses_walls);
+    room.map.mark(observation(at, axis, 2_m, false), nullptr, loses_walls);
     return room.map.at(room.map.place({550_mm, 250_mm}));
   };
   EXPECT_EQ(after(kFrom, 20_deg, true), CellState::occupied);
@@ -124,10 +124,10 @@ TEST(GridMap, AnEchoThatFreeCellsAloneExplainTakesThemBack) {
   const auto after = [](CellState beside, bool doubts) {
     test::Room room(kShape);
     for (const Angle axis : {-(20_deg), 0_deg, 20_deg}) {
-      room.map.mark(observation(kFrom, axis, 2_m, false), false);
+      room.map.mark(observation(kFrom, axis, 2_m, false));
     }
     room.map.set(room.map.place({950_mm, 150_mm}), beside);
-    room.map.mark(observation(kFrom, Angle{}, 900_mm, true), false, doubts);
+    room.map.mark(observation(kFrom, Angle{}, 900_mm, true), nullptr, doubts);
     return room.map.at(room.map.place({950_mm, 50_mm}));
   };
   EXPECT_EQ(after(CellState::free, true), CellState::suspect);
@@ -141,13 +141,17 @@ TEST(GridMap, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
   local_grid.configure(room.params);
   local_grid.reset({kFrom, {}});
   const auto cell = [&](int32_t x_mm) { return room.map.place({millimetres(x_mm), 50_mm}); };
+  const auto copy = [&](Vec body) {
+    const int32_t reach = room.map.reach_of(local_grid);
+    for (int32_t row = -reach; row <= reach; ++row) room.map.free(local_grid, body, row);
+  };
   for (const int32_t x : {50, 150, 250, 350}) room.map.set(cell(x), CellState::occupied);
-  room.map.free(local_grid, kFrom);
+  copy(kFrom);
   EXPECT_EQ(room.map.at(cell(50)), CellState::free);
   EXPECT_EQ(room.map.at(cell(150)), CellState::occupied);
   // The body drives on: its footprints together clear cells that none of them clears alone.
   for (int32_t x = 50; x <= 200; x += 10) local_grid.move_to({{millimetres(x), 50_mm}, {}});
-  room.map.free(local_grid, {200_mm, 50_mm});
+  copy({200_mm, 50_mm});
   EXPECT_EQ(room.map.at(cell(150)), CellState::free);
   EXPECT_EQ(room.map.at(cell(250)), CellState::occupied);
   EXPECT_EQ(room.map.at(cell(350)), CellState::occupied);
@@ -157,7 +161,7 @@ TEST(GridMap, WhatIsSeenEmptyIsFreeWhateverItWas) {
   test::Room room(kShape);
   const Cell p = room.map.place({1_m, Length{}});
   room.map.set(p, CellState::occupied);
-  room.map.mark(observation({}, Angle{}, 2_m, false), false);
+  room.map.mark(observation({}, Angle{}, 2_m, false));
   EXPECT_EQ(room.map.at(p), CellState::free);
 }
 
@@ -172,10 +176,11 @@ TEST(GridMap, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
         const Cell level = p + Cell{dx, dy};
         GridWord* const plane = dx == dy ? room.map.level_low() : room.map.level_high();
         plane[level.y * shape.words + level.x / kWordBits] = GridWord{1} << (level.x % kWordBits);
-        room.map.mark(observation({}, Angle{}, 2_m, false), true);
+        const GridMap::Hold hold{{-1, -1}, {-1, -1}, true};
+        room.map.mark(observation({}, Angle{}, 2_m, false), &hold);
         const bool beside = std::abs(dx) <= reach && std::abs(dy) <= reach;
         EXPECT_EQ(room.map.at(p), beside ? CellState::occupied : CellState::free) << dx << ", " << dy;
-        room.map.mark(observation({}, Angle{}, 2_m, false), false);
+        room.map.release(hold);
         EXPECT_EQ(room.map.at(p), CellState::free) << dx << ", " << dy;
       }
     }
@@ -208,8 +213,8 @@ TEST(GridMap, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
 
 TEST(GridMap, AnEchoDoesNotTakeBackWhatWasSeenEmpty) {
   test::Room room(kShape);
-  room.map.mark(observation({}, Angle{}, 2_m, false), false);
-  room.map.mark(observation({}, Angle{}, 700_mm, true), false);
+  room.map.mark(observation({}, Angle{}, 2_m, false));
+  room.map.mark(observation({}, Angle{}, 700_mm, true));
   const Cell p = room.map.place({700_mm, 10_mm});
   EXPECT_EQ(room.map.at(p), CellState::free);
 }
@@ -228,7 +233,7 @@ TEST(GridMap, DoubtsWhatBlocksAndKeepsWhatIsFree) {
 TEST(GridMap, MarksNothingFromOutsideItsWindow) {
   test::Room room(kShape);
   const std::vector<GridWord> before = room.storage;
-  room.map.mark(observation({50_m, 50_m}, Angle{}, 2_m, true), false);
+  room.map.mark(observation({50_m, 50_m}, Angle{}, 2_m, true));
   EXPECT_EQ(room.storage, before);
 }
 

@@ -24,7 +24,11 @@ class Guided : public testing::Test {
   }
 
   void stay(int ticks) {
-    for (int i = 0; i < ticks; ++i) map_.guide.observe(view_);
+    for (int i = 0; i < ticks; ++i) tick();
+  }
+  void tick() {
+    map_.guide.observe(view_);
+    map_.guide.ponder(view_);
   }
   GlobalPlanner::Advice advice() {
     Vec place;
@@ -34,7 +38,7 @@ class Guided : public testing::Test {
     view_.travelled_um += static_cast<uint32_t>(norm(at - view_.pose.at).raw());
     view_.pose.at = at;
     local_grid_.move_to(view_.pose);
-    map_.guide.observe(view_);
+    tick();
   }
   /// Beams all round, near enough for sure echoes.
   void see_ring() {

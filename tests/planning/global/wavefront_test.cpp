@@ -178,6 +178,7 @@ TEST(Wavefront, SpreadOverTicksIsTheWhole) {
 
 TEST(Wavefront, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
   int opened = 0;
+  int noted = 0;
   each_case(
       [&](Case& c) {
         GridMap& map = c.room.map;
@@ -199,11 +200,21 @@ TEST(Wavefront, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
           clear.beam.axis = Angle::from_raw(heading(c.random));
           clear.beam.half_cone = Angle::from_raw(Params{}.rangefinders.cone.raw() / 2);
           clear.free = 2_m;
-          map.mark(clear, true);
+          const GridMap::Hold hold = parts.hold();
+          map.mark(clear, &hold);
         }
         opened += at_first - blocked();
         const int32_t level = parts.level();
-        const std::vector<GridWord> in_parts = c.room.storage;
+        const std::vector<GridWord> at_end = c.room.storage;
+        map.release(parts.hold());
+        std::vector<GridWord> in_parts = c.room.storage;
+        noted += at_end != in_parts;
+        // The cells that open at the end blocked until then.
+        const auto planes = [&](const std::vector<GridWord>& from) {
+          std::copy_n(from.begin(), 2 * map.shape().size(), in_parts.begin());
+        };
+        planes(at_end);
+        c.room.storage = in_parts;
         Wavefront whole;
         whole.begin(map, c.task);
         whole.run(map, kWhole);
@@ -212,6 +223,7 @@ TEST(Wavefront, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
       },
       1000);
   EXPECT_GT(opened, 1000);
+  EXPECT_GT(noted, 100);
 }
 
 TEST(Wavefront, GoesAroundOutsideTheWindowAtAPrice) {

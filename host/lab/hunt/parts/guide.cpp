@@ -30,7 +30,11 @@ struct Guided {
     map.guide.start(view, {goal, 100_mm});
   }
   void stay(int ticks) {
-    for (int i = 0; i < ticks; ++i) map.guide.observe(view);
+    for (int i = 0; i < ticks; ++i) tick();
+  }
+  void tick() {
+    map.guide.observe(view);
+    map.guide.ponder(view);
   }
   Advice advice(Vec& place) { return map.guide.advise(view, norm(goal - view.pose.at), place); }
   Advice advice() {
@@ -41,7 +45,7 @@ struct Guided {
     view.travelled_um += static_cast<std::uint32_t>(norm(at - view.pose.at).raw());
     view.pose.at = at;
     grid.move_to(view.pose);
-    map.guide.observe(view);
+    tick();
   }
   /// Walls all round, or up to this angle.
   void see_ring(int degrees_of_it, int from) {

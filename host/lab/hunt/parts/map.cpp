@@ -90,7 +90,7 @@ std::string judge_map(Dice& dice) {
     const perception::ConeObservation seen = draw_observation(dice, room);
     std::vector<CellState> before;
     room.each([&](Cell p) { before.push_back(room.map.at(p)); });
-    room.map.mark(seen, false);
+    room.map.mark(seen);
     const sim::Vec2 apex = vec(seen.beam.apex) * (1 / cell);
     const Sector sector{apex, radians(seen.beam.axis), radians(seen.beam.half_cone)};
     const double distance = metres(seen.free) / cell, far = kFar_m / cell;
@@ -186,8 +186,9 @@ std::string judge_hold(Dice& dice) {
   seen.hit = false;
   std::vector<bool> narrow;
   room.each([&](Cell p) { narrow.push_back(room.too_narrow(p)); });
-  room.map.mark(seen, true);
-  open.map.mark(seen, false);
+  const planning::GridMap::Hold hold{{-1, -1}, {-1, -1}, true};
+  room.map.mark(seen, &hold);
+  open.map.mark(seen);
   std::string wrong;
   room.each([&](Cell p) {
     const CellState then = before[room.index(p)];

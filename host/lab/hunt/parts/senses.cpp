@@ -21,7 +21,8 @@ std::string judge_copy(Dice& dice) {
   const LocalGrid grid = draw_grid(dice, room.params, pose);
   std::vector<planning::CellState> before;
   room.each([&](planning::Cell p) { before.push_back(room.map.at(p)); });
-  room.map.free(grid, pose.at);
+  const std::int32_t rows = room.map.reach_of(grid);
+  for (std::int32_t row = -rows; row <= rows; ++row) room.map.free(grid, pose.at, row);
   std::string wrong;
   const double reach = metres(room.map.cell()) * 0.6, fine = metres(grid_cell(room.params));
   room.each([&](planning::Cell p) {
