@@ -64,13 +64,18 @@ WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationE
 WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid7move_toERKNS_4PoseE, void,
                  (LocalGrid * local_grid, const Pose& pose), (local_grid, pose))
 #elif defined(WHISKER_PROFILE_MARKS)
-WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEbb, void,
-                 (GridMap * map, const perception::ConeObservation& observation, bool hold, bool doubts),
+WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEPKNS1_4HoldEb, int32_t,
+                 (GridMap * map, const perception::ConeObservation& observation, const GridMap::Hold* hold,
+                  bool doubts),
                  (map, observation, hold, doubts))
 #elif defined(WHISKER_PROFILE_FLOOD)
-WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
-                 (Wavefront * wavefront, GridMap& map, int32_t words), (wavefront, map, words))
+WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapElPl, bool,
+                 (Wavefront * wavefront, GridMap& map, int32_t words, int32_t* spare),
+                 (wavefront, map, words, spare))
 #elif defined(WHISKER_PROFILE_INPUTS)
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
 WHISKER_MEASURED(
     _ZN7whisker8planning13ground_inputsENS_4UnitINS_9LengthTagEEERKNS_10perception9LocalGridENS_3VecENS_5AngleERKNS_6ParamsE,
     fuzzy::Inputs, (Length nearest, const LocalGrid& grid, Vec at, Angle course, const Params& params),

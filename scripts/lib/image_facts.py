@@ -16,6 +16,7 @@ INDIRECT = (
         r"Robot(4plan|11ask_planner|8localize|11follow_wall|8perceive|8set_goal|6cancel|5reset|5aimed|9aim_again|7correct|8put_down|5place|4tick)E",
         r"8planning11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
     ),
+    (r"Robot(6ponder|4tick)E", r"8planning(15BoundaryPlanner|7Planner)6ponderE"),
     (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),
     (r"8planning11GoalPlanner9move_goalE", r"8planning(11GoalPlanner|15BoundaryPlanner)11follow_goalE"),
     (r"8planning6Course", r"8planning15TableDeflection7deflectE"),
@@ -30,7 +31,7 @@ INDIRECT = (
 )  # fmt: skip
 NO_GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", None),)
 # The boundary planner with a map.
-GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
+GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6ponder|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
 # The controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode8on_frameE"),

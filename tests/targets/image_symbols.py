@@ -37,7 +37,7 @@ def main():
     for build, target in chips.sample():
         prefix = next((tool for start, tool in TOOLS.items() if build.startswith(start)), None)
         more = ["can-node", "guard-node"] if target.board in ("mps2", "virt") else []
-        more += ["can-node-stm32f103", "guard-node-stm32f103"] if target.name == "cortex-m3" else []
+        more += ["can-node-stm32f103", "guard-node-stm32f103"] if build == "cortex-m3" else []
         for program in PROGRAMS + more if prefix else ():
             image = chips.image(build, target, program)
             checked += 1

@@ -35,14 +35,17 @@ struct Course::Candidate {
 };
 
 /// The n-th candidate: the headings with more room, then all, and then those beside the one that was nearly
-/// free. Each begins with that of the table and straight to the goal, and then comes nearer to the wall's
-/// side and the other side in turn.
+/// free.
 Course::Candidate Course::candidate(int n, Angle target, Side wall) const noexcept {
-  if (n >= kAll) {
-    const Candidate nearly = candidate(nearly_, target, wall);
-    const Angle off = kFineStep * ((n - kAll) / 2 + 1);
-    return {nearly.heading + (n % 2 == kAll % 2 ? -off : off), nearly.wall, false, Why::narrow};
-  }
+  if (n < kAll) return coarse(n, target, wall);
+  const Candidate nearly = coarse(nearly_, target, wall);
+  const Angle off = kFineStep * ((n - kAll) / 2 + 1);
+  return {nearly.heading + (n % 2 == kAll % 2 ? -off : off), nearly.wall, false, Why::narrow};
+}
+
+/// Each round begins with that of the table and straight to the goal, and then comes nearer to the wall's
+/// side and the other side in turn.
+Course::Candidate Course::coarse(int n, Angle target, Side wall) const noexcept {
   const bool roomy = n < kRoomy;
   const int i = roomy ? n : n - kRoomy;
   if (i == 0) {

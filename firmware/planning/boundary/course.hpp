@@ -39,6 +39,7 @@ class Course {
   struct Candidate;
   void bend_towards(Angle wanted) noexcept;
   Candidate candidate(int n, Angle target, Side wall) const noexcept;
+  Candidate coarse(int n, Angle target, Side wall) const noexcept;
 
   Angle heading_;
   int32_t bend_ = 0;   // filtered; 2^-32 turn

@@ -142,7 +142,7 @@ class Wavefront::Rows {
   Rows& operator=(const Rows&) = delete;
 
   void begin_level() noexcept;
-  /// Spreads to these rows, the next of the level; the first row may be any.
+  /// Spreads to these rows of the level.
   void spread(int32_t row, int32_t end) noexcept;
 
  private:
@@ -175,11 +175,7 @@ class Wavefront::Rows {
   const int32_t goal_row_;
   const int words_;
   Row row_[3];
-  Row* above_ = &row_[0];
-  Row* here_ = &row_[1];
-  Row* below_ = &row_[2];
   // State of the level:
-  bool first_ = true;  // no row read yet
   bool diagonal_ = false;
   bool enters_ = false;  // across a side of the window:
   bool top_ = false;
@@ -195,7 +191,6 @@ class Wavefront::Rows {
 void Wavefront::Rows::begin_level() noexcept {
   const auto all = [](bool set) { return set ? ~GridWord{0} : GridWord{0}; };
   const int phase = wavefront_.level_ % 3;
-  first_ = true;
   diagonal_ = wavefront_.level_ % 2 == 0;
   enters_ = wavefront_.entry_ != Entry::goal;
   const bool any = wavefront_.entry_ == Entry::any_border;
@@ -274,25 +269,20 @@ GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noe
 }
 
 void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
-  Row* above = above_;
-  Row* here = here_;
-  Row* below = below_;
-  if (first_) {
-    read(row - 1, *above);
-    read(row, *here);
-    first_ = false;
-  }
-  for (; row < end; ++row) {
-    read(row + 1, *below);
-    if ((above->any | here->any | below->any) != 0 || enters_) spread(row, *above, *here, *below);
+  Row* above = &row_[0];
+  Row* here = &row_[1];
+  Row* below = &row_[2];
+  for (int32_t next = row - 1; next <= end; ++next) {
     Row* const oldest = above;
     above = here;
     here = below;
     below = oldest;
+    read(next, *below);
+    const bool complete = next > row;
+    if (complete && ((above->any | here->any | below->any) != 0 || enters_)) {
+      spread(next - 1, *above, *here, *below);
+    }
   }
-  above_ = above;
-  here_ = here;
-  below_ = below;
 }
 
 inline void Wavefront::Rows::spread(int32_t row, const Row& above, const Row& here,
