@@ -1,5 +1,6 @@
 """whisker guard and whisker operators from outside."""
 
+import contextlib
 import csv
 import fcntl
 import json
@@ -35,6 +36,20 @@ def until(terminal, enough):
         assert select.select([terminal], [], [], 60)[0], said
         said += os.read(terminal, 4096)
     return said
+
+
+def drain(terminal):
+    while select.select([terminal], [], [], 0)[0]:
+        os.read(terminal, 4096)
+
+
+@contextlib.contextmanager
+def ended(process):
+    """A test that fails does not wait for its process."""
+    try:
+        yield
+    finally:
+        process.kill()
 
 
 class Guard(unittest.TestCase):
@@ -147,12 +162,13 @@ class Guard(unittest.TestCase):
                 ours, theirs = pty.openpty()
                 before = termios.tcgetattr(theirs)
                 command = [whisker.binary, "guard", self.world, "--keys", "--html", str(page), "--trace", str(trace)]
-                with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, preexec_fn=lambda theirs=theirs: own(theirs)) as process:
+                with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, preexec_fn=lambda theirs=theirs: own(theirs)) as process, ended(process):
                     said = until(ours, lambda said: b"asked" in said)
                     self.assertFalse(termios.tcgetattr(theirs)[3] & termios.ECHO)
                     os.write(ours, b"\x1a")
                     self.assertTrue(os.WIFSTOPPED(os.waitpid(process.pid, os.WUNTRACED)[1]))
                     self.assertEqual(termios.tcgetattr(theirs), before)
+                    drain(ours)
                     process.send_signal(signal.SIGCONT)
                     until(ours, lambda said: b"asked" in said)
                     self.assertFalse(termios.tcgetattr(theirs)[3] & termios.ECHO)
