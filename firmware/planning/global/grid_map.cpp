@@ -276,8 +276,7 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
-      if (hold != nullptr) freed |= noted(i, hold->strict);
+      const GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);

@@ -177,7 +177,7 @@ void WavefrontPlanner::begin_plan(const View& view) noexcept {
 
 /// The last wavefront still leads from here around all that blocks, and no better one has been asked for.
 bool WavefrontPlanner::still_open(const View& view) const noexcept {
-  if (!has_way_ || !wavefront_.strict() || wavefront_.goal() != map_.place(goal_.at)) return false;
+  if (!has_way_ || detour_ || !wavefront_.strict() || wavefront_.goal() != map_.place(goal_.at)) return false;
   Cell p = map_.place(view.pose.at);
   if (wavefront_.phase(map_, p) < 0) return false;
   const Cell goal = wavefront_.goal();
@@ -195,6 +195,7 @@ void WavefrontPlanner::end_wavefront(const View& view) noexcept {
     strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
     doubts_ = wavefront_.outside() ||
               strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) > levels(kLittle);
+    detour_ = doubts_;
     if (!doubts_) shut_ = false;
     // The way of this wavefront is the one to take if suspect cells make it little longer.
     if (wavefront_.reached()) {

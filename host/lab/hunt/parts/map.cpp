@@ -199,7 +199,20 @@ std::string judge_hold(Dice& dice) {
     const CellState due = closed && (near || rim) ? then : open.map.at(p);
     // What is freed before it may leave a cell room.
     const bool may_free = narrow[room.index(p)] && room.map.at(p) == open.map.at(p);
-    if (room.map.at(p) != due && !may_free) wrong = "a plan holds another cell";
+    // A cell that is noted to be free holds those beside it, too.
+    bool may_stay = false;
+    for (int y = -reach; y <= reach && room.map.at(p) == then; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        const Cell q = p + Cell{x, y};
+        may_stay = may_stay || (!(q == p) && room.blocks(q) && !open.blocks(q));
+      }
+    }
+    if (room.map.at(p) != due && !may_free && !may_stay) wrong = "a plan holds another cell";
+  });
+  room.map.release(hold);
+  room.each([&](Cell p) {
+    const bool freed = before[room.index(p)] >= CellState::suspect && !open.blocks(p);
+    if (freed && room.blocks(p)) wrong = "a cell stays shut when the plan is over";
   });
   room.map.doubt_all();
   room.each([&](Cell p) {
