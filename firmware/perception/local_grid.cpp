@@ -69,7 +69,7 @@ void LocalGrid::configure(const Params& params) noexcept {
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    return scale_.units(int64_t{x.raw()} - corner * scale_.cell_um, kOutermost);
+    return scale_.units(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }

@@ -29,9 +29,9 @@ void Course::bend_towards(Angle wanted) noexcept {
 
 struct Course::Candidate {
   Angle heading;
-  Side wall;
-  bool roomy;  ///< with more room on both sides
-  Why why;
+  Side wall = Side::left;
+  bool roomy = false;  ///< with more room on both sides
+  Why why = Why::none;
 };
 
 /// The n-th candidate: the headings with more room, then all, and then those beside the one that was nearly
