@@ -14,7 +14,6 @@ struct Percept {
   Echoes static_scan{};  ///< consensus of the readings taken since the body stood; pending until then
   Echoes moving_scan{};  ///< the same while it moves: the median of the last few readings of each beam
   bool sighted = false;  ///< a reading arrived at this tick; after Perception::put_off(): it is time to think
-  bool quiet = true;     ///< no reading arrived at this tick: there is time for long searches
   const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
   const Contacts* contacts = nullptr;           ///< obstacles found by touch; null: none
   ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick, or put off until it

@@ -120,7 +120,6 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
 void Perception::put_off(Percept& out) noexcept {
   const bool now = waits_;
   waits_ = out.sighted && !now;
-  out.quiet = !out.sighted;
   out.sighted = now;
   for (int i = 0; i < hal::kBeams; ++i) {
     const uint8_t bit = static_cast<uint8_t>(1U << i);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/can/codec.hpp"
 #include "firmware/can/limits.hpp"
 #include "firmware/version.hpp"
 #include "host/cli/bus_run.hpp"
@@ -84,6 +85,22 @@ BenchBus::BenchBus(const BenchChoice& choice)
       clock_([this] { return line_->descriptor(); }),
       lossy_(lossy(line_->port(), choice.bus)),
       port_(lossy_, survey_, clock_) {}
+
+std::pair<int, int> BenchBus::stopped_of_all() const {
+  int stopped = 0, all = 0;
+  for (const can::Party party : {can::Party::controller, can::Party::base}) {
+    if (!alive(party)) continue;
+    ++all;
+    if (survey_.find(robot(), party)->beat.state == can::NodeState::e_stopped) ++stopped;
+  }
+  return {stopped, all};
+}
+
+void BenchBus::order(std::uint8_t command) {
+  can::EStop what;
+  what.command = command;
+  send(can::encode(what, static_cast<std::uint8_t>(robot()), 0));
+}
 
 void BenchBus::join() {
   const std::uint64_t end_us = clock_.now_us() + static_cast<std::uint64_t>(choice_.timeout_s * 1e6);

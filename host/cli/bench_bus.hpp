@@ -52,6 +52,7 @@ class BenchBus {
  public:
   static constexpr double kListen_s = 0.4;  ///< longer than the time after which a node counts as lost
   static constexpr double kMost_s = 86400;  ///< of --for
+  static constexpr double kAgain_s = 0.1;   ///< period of heartbeats; an order is repeated so often
 
   explicit BenchBus(const BenchChoice& choice);
 
@@ -68,6 +69,11 @@ class BenchBus {
   bool has(can::Party party) const { return survey_.find(robot(), party) != nullptr; }
   /// It is not silent.
   bool alive(can::Party party) const { return survey_.alive(robot(), party, port_.polled_us()); }
+  /// Of the nodes of the robot that live, those in the state e_stopped, and all.
+  std::pair<int, int> stopped_of_all() const;
+  /// An E-stop, or its end. It is on the identifier of the controller, which both nodes obey, whoever sends
+  /// it.
+  void order(std::uint8_t command);
   /// The robot's base. Throws bench::NoAnswer if the robot has one, or no controller.
   std::unique_ptr<bench::BaseClient> base();
   /// An operator, if the robot has a base, or else its base. Throws bench::NoAnswer if the robot has no

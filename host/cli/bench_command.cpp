@@ -99,41 +99,24 @@ struct OrderOptions {
   bool clear = false, cancel = false;
 };
 
-constexpr double kAgain_s = 0.1;  // period of heartbeats
-
-/// Of the nodes of the robot that live, those in the state e_stopped, and all.
-std::pair<int, int> stopped_of_all(BenchBus& bus) {
-  int stopped = 0, all = 0;
-  for (const can::Party party : {can::Party::controller, can::Party::base}) {
-    if (!bus.alive(party)) continue;
-    ++all;
-    if (bus.survey().find(bus.robot(), party)->beat.state == can::NodeState::e_stopped) ++stopped;
-  }
-  return {stopped, all};
-}
-
-/// Repeats the frame until all nodes of the robot are e_stopped, or none. It is on the identifier of the
-/// controller, which both nodes obey, whoever sends it.
+/// Repeats the order until all nodes of the robot are e_stopped, or none.
 int press(const OrderOptions& o, std::uint8_t command) {
   BenchBus bus(o.bus);
   const bool stop = command == can::kStopCommand;
-  can::EStop what;
-  what.command = command;
-  const hal::CanFrame frame = can::encode(what, static_cast<std::uint8_t>(bus.robot()), 0);
   // A stop must not wait for anything.
   bus.listen(stop ? 0.001 : BenchBus::kListen_s, nullptr);
-  for (double waited = 0; waited < o.bus.timeout_s; waited += kAgain_s) {
-    bus.send(frame);
-    bus.listen(kAgain_s, nullptr);
-    const auto [stopped, all] = stopped_of_all(bus);
+  for (double waited = 0; waited < o.bus.timeout_s; waited += BenchBus::kAgain_s) {
+    bus.order(command);
+    bus.listen(BenchBus::kAgain_s, nullptr);
+    const auto [stopped, all] = bus.stopped_of_all();
     if (all == 0 || stopped != (stop ? all : 0)) continue;
     // Their heartbeats from before have passed.
-    bus.listen(kAgain_s, nullptr);
-    if (stopped_of_all(bus) != std::pair(stopped, all)) continue;
+    bus.listen(BenchBus::kAgain_s, nullptr);
+    if (bus.stopped_of_all() != std::pair(stopped, all)) continue;
     fmt::print("robot {}: {}\n", bus.robot(), stop ? "E-stop" : "the E-stop is cleared; it starts nothing");
     return 0;
   }
-  const auto [stopped, all] = stopped_of_all(bus);
+  const auto [stopped, all] = bus.stopped_of_all();
   if (all == 0) {
     throw bench::NoAnswer(fmt::format("{}: {}robot {} was silent for {} s", bus.name(),
                                       stop ? "the E-stop was sent, but " : "", bus.robot(), o.bus.timeout_s));

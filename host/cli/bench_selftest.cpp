@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "firmware/can/codec.hpp"
 #include "firmware/version.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
@@ -230,20 +229,13 @@ class Selftest {
          reached);
   }
 
-  bool all(can::NodeState state, bool wanted) const {
-    bool holds = true;
-    for (const can::Party party : {can::Party::controller, can::Party::base})
-      holds = holds && (bus_.survey().find(bus_.robot(), party)->beat.state == state) == wanted;
-    return holds;
-  }
   /// Repeats the order until the nodes have obeyed, and `over`.
   bool order(std::uint8_t command, bench::Ear& ear, const std::function<bool()>& over) {
-    can::EStop what;
-    what.command = command;
-    const bool stops = command == can::kStopCommand;
-    for (double waited = 0; waited < o_.bus.timeout_s; waited += kAgain_s) {
-      bus_.send(can::encode(what, static_cast<std::uint8_t>(bus_.robot()), 0));
-      if (hear(ear, kAgain_s, [&] { return all(can::NodeState::e_stopped, stops) && over(); })) return true;
+    const std::pair<int, int> wanted{command == can::kStopCommand ? 2 : 0, 2};
+    for (double waited = 0; waited < o_.bus.timeout_s; waited += BenchBus::kAgain_s) {
+      bus_.order(command);
+      if (hear(ear, BenchBus::kAgain_s, [&] { return bus_.stopped_of_all() == wanted && over(); }))
+        return true;
     }
     return false;
   }
@@ -279,8 +271,6 @@ class Selftest {
     fmt::print(told_, "{} of {} passed: {}\n", steps_.size() - static_cast<std::size_t>(failed_),
                steps_.size(), o_.file);
   }
-
-  static constexpr double kAgain_s = 0.1;  // period of heartbeats
 
   const SelftestOptions& o_;
   std::FILE* const told_;

@@ -198,18 +198,14 @@ GridWord GridMap::own(const Hold& hold, int32_t row, int w) noexcept {
 void GridMap::release(const Hold& hold) noexcept {
   if (!notes_) return;
   notes_ = false;
-  GridWord* const sure = this->sure();
-  GridWord* const high = level_high();
-  GridWord* const low = level_low();
   for (int32_t i = 0; i < size_; ++i) {
-    GridWord cells = (high[i] | low[i]) & planes_[i];
-    if (!hold.strict) cells &= sure[i];
+    GridWord cells = noted(i, hold.strict);
     if (cells == 0) continue;
     cells &= ~own(hold, i / shape_.words, static_cast<int>(i % shape_.words));
-    sure[i] |= cells;
-    planes_[i] &= ~cells;
-    high[i] &= ~cells;
-    low[i] &= ~cells;
+    sure()[i] |= cells;
+    blocking()[i] &= ~cells;
+    level_high()[i] &= ~cells;
+    level_low()[i] &= ~cells;
   }
 }
 

@@ -167,7 +167,6 @@ void WavefrontPlanner::copy(const View& view) noexcept {
 void WavefrontPlanner::begin_plan(const View& view) noexcept {
   if (!waits_ && kept_ < kMostKept && still_open(view)) {
     ++kept_;
-    doubts_ = false;
     find_way(view);
     return;
   }
@@ -193,10 +192,9 @@ bool WavefrontPlanner::still_open(const View& view) const noexcept {
 void WavefrontPlanner::end_wavefront(const View& view) noexcept {
   if (stage_ == Stage::strict) {
     strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
-    doubts_ = wavefront_.outside() ||
+    detour_ = wavefront_.outside() ||
               strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) > levels(kLittle);
-    detour_ = doubts_;
-    if (!doubts_) shut_ = false;
+    if (!detour_) shut_ = false;
     // The way of this wavefront is the one to take if suspect cells make it little longer.
     if (wavefront_.reached()) {
       find_way(view);
@@ -211,7 +209,6 @@ void WavefrontPlanner::end_wavefront(const View& view) noexcept {
     has_way_ = false;
     end_plan();
   } else if (strict_ - wavefront_.level() > accepted(view)) {
-    doubts_ = false;
     find_way(view);
   } else {
     has_way_ = true;
@@ -222,7 +219,8 @@ void WavefrontPlanner::end_wavefront(const View& view) noexcept {
 
 /// The way is found, and at the end of a plan the body takes it.
 void WavefrontPlanner::take_way(const View& view) noexcept {
-  if (doubts_) {
+  // One that passes suspect cells may be much shorter.
+  if (detour_ && wavefront_.strict()) {
     begin(Stage::passing, view);
     return;
   }

@@ -83,8 +83,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   int8_t attempts_ = 0;  // finished attempts with the map
   uint8_t kept_ = 0;     // plans in a row for which the wavefront was kept
   bool first_ = false;   // no cell of the way has been looked at
-  bool doubts_ = false;  // a way that passes suspect cells may be much shorter
-  bool detour_ = false;  // the last way that passes none is much longer than the straight line
+  bool detour_ = false;  // without suspect cells, the last way is much longer than the straight line
   int32_t strict_ = 0;   // levels to the body if suspect cells block
   int32_t ticks_ = 0;    // since the current plan started
   Cell on_;              // of the way, looked at last
