@@ -9,7 +9,7 @@
 namespace whisker::hunt {
 namespace {
 
-constexpr int kPlots = 10;
+constexpr int kPlots = 11;
 /// A command that is recorded a little earlier than its tick comes at that tick however times are rounded.
 constexpr double kEarlier_s = 0.0005;
 
@@ -41,6 +41,10 @@ void Attacker::plot(double t_s) {
                                           : dice_.log_uniform(0.02, 3));
   pause_s_ = dice_.chance(0.1) ? dice_.log_uniform(0.05, 0.6) : dice_.log_uniform(0.005, 0.1);
   draw();
+  if (plot_ == Plot::creep) {
+    until_s_ = t_s + dice_.uniform(5, 30);
+    creep_mps_ = dice_.log_uniform(1e-5, 5e-3);
+  }
 }
 
 void Attacker::draw() {
@@ -50,21 +54,23 @@ void Attacker::draw() {
   if (dice_.chance(0.3)) twist_.turning_radps *= 0.2;
 }
 
-void Attacker::steer(const sim::Pose& pose, sim::Vec2 way) {
+void Attacker::steer(const sim::Pose& pose, sim::Vec2 way, double speed_mps) {
   const double off = wrapped(bearing({}, way) - pose.heading);
   twist_.turning_radps = std::clamp(off * 10, -turn_radps_, turn_radps_);
-  twist_.forward_mps = std::fabs(off) < 0.5 ? speed_mps_ : 0;
+  twist_.forward_mps = std::fabs(off) < 0.5 ? speed_mps : 0;
 }
 
 void Attacker::act(const guard::Sight& sight) {
-  const bool hunts = plot_ == Plot::charge || plot_ == Plot::graze || plot_ == Plot::ambush;
+  const bool hunts =
+      plot_ == Plot::charge || plot_ == Plot::graze || plot_ == Plot::ambush || plot_ == Plot::creep;
   const Near near = hunts ? nearest(scenario_, sight.pose.at) : Near{0, {}};
   const sim::Vec2 way = hunts && std::isfinite(near.distance_m) ? near.at - sight.pose.at : sim::Vec2{1, 0};
   switch (plot_) {
     case Plot::survey: twist_ = {0, std::copysign(survey_radps_ * 0.9, twist_.turning_radps)}; break;
     case Plot::steady: break;
-    case Plot::charge: steer(sight.pose, way); break;
-    case Plot::graze: steer(sight.pose, {way.y + way.x * 0.3, way.y * 0.3 - way.x}); break;
+    case Plot::charge: steer(sight.pose, way, speed_mps_); break;
+    case Plot::creep: steer(sight.pose, way, creep_mps_); break;
+    case Plot::graze: steer(sight.pose, {way.y + way.x * 0.3, way.y * 0.3 - way.x}, speed_mps_); break;
     case Plot::spin: twist_ = {0, std::copysign(turn_radps_, twist_.turning_radps)}; break;
     case Plot::zigzag: twist_.turning_radps = -twist_.turning_radps; break;
     case Plot::reverse: twist_.forward_mps = -twist_.forward_mps; break;
@@ -72,7 +78,7 @@ void Attacker::act(const guard::Sight& sight) {
     case Plot::beyond: twist_ = {dice_.uniform(-2000, 2000), dice_.uniform(-2000, 2000)}; break;
     // Full speed until an obstacle is a third of a radius away, then the hardest turn.
     case Plot::ambush:
-      steer(sight.pose, way);
+      steer(sight.pose, way, speed_mps_);
       if (near.distance_m < radius_m_ * 1.3)
         twist_ = {speed_mps_, dice_.chance(0.5) ? turn_radps_ : -turn_radps_};
       break;

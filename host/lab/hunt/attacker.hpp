@@ -10,8 +10,9 @@
 
 namespace whisker::hunt {
 
-/// Surveys the ground so that the guard grants something, charges at the nearest obstacle, grazes it, spins
-/// and reverses beside it, and gives commands of every size at every rate. It records what it commanded.
+/// Surveys the ground so that the guard grants something, charges or creeps at the nearest obstacle, grazes
+/// it, spins and reverses beside it, and gives commands of every size at every rate. It records what it
+/// commanded.
 class Attacker final : public guard::Operator {
  public:
   /// The scenario must outlive it.
@@ -21,12 +22,12 @@ class Attacker final : public guard::Operator {
   const std::vector<guard::Command>& commands() const { return commands_; }
 
  private:
-  enum class Plot { survey, steady, charge, graze, spin, zigzag, reverse, noise, beyond, ambush };
+  enum class Plot { survey, steady, charge, graze, spin, zigzag, reverse, noise, beyond, ambush, creep };
 
   void plot(double t_s);
   void draw();
   /// Turns towards this direction in the world and drives.
-  void steer(const sim::Pose& pose, sim::Vec2 way);
+  void steer(const sim::Pose& pose, sim::Vec2 way, double speed_mps);
   void act(const guard::Sight& sight);
 
   const Scenario& scenario_;
@@ -34,6 +35,7 @@ class Attacker final : public guard::Operator {
   double radius_m_, speed_mps_, turn_radps_, survey_radps_;
   Plot plot_ = Plot::steady;
   double until_s_ = 0;
+  double creep_mps_ = 0;
   double pause_s_ = 0.02;
   guard::Twist twist_;
   std::vector<guard::Command> commands_;
