@@ -11,7 +11,7 @@
 #include "firmware/robot.hpp"
 #include "hal/ports/slcan/slcan.hpp"
 #include "host/harness/hil/operator_orders.hpp"
-#include "host/harness/hil/replay.hpp"
+#include "host/harness/hil/replayer.hpp"
 #include "host/harness/hil/tap.hpp"
 
 namespace whisker::pico {
@@ -53,8 +53,8 @@ class Cable {
   const can::Heartbeat& base() const { return base_; }
   std::uint64_t frames() const { return frames_; }
   std::uint64_t answers() const { return answers_; }  ///< that were compared
-  /// Of the core on this computer, at the last tick; null: none yet.
-  const Status* inside() const { return shadow_ && followed_ ? &shadow_->status() : nullptr; }
+  /// The core on this computer after its last tick; null: it has taken none.
+  const hil::Shadow* shadow() const { return shadow_ && followed_ ? &*shadow_ : nullptr; }
   /// The first answer that the core on this computer would not have given; "": none.
   std::string difference() const { return shadow_ ? shadow_->difference() : std::string(); }
 
