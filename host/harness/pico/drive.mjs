@@ -14,7 +14,15 @@ export class Drive {
   /** Takes what the robot sends, instead of the simulator. */
   takesBytes = null;
   /** Of the simulator's last line. */
-  now = {ordered: false, outcome: 'none', fault: 'none', base: 'off_bus', speeds: [0, 0], contact: false};
+  now = {
+    ordered: false,
+    refused: false,
+    outcome: 'none',
+    fault: 'none',
+    base: 'off_bus',
+    speeds: [0, 0],
+    contact: false,
+  };
   /**
    * rig: asked once a millisecond, as host/harness/pico/rig.hpp says. uf2: what is flashed. sonar: HC-SR04 instead of
    * VL53L0X. prepare(chip): before the power comes.
@@ -37,6 +45,7 @@ export class Drive {
     const [left, right, contact, ordered, outcome, fault, base] = words.slice(14, 21);
     this.now = {
       ordered: ordered === 'ordered',
+      refused: ordered === 'refused',
       outcome,
       fault,
       base,

@@ -132,9 +132,11 @@ std::string Rig::answer(const std::string& goes) const {
   say(std::lround(plant_.v_right() * 1e6));
   say(plant_.in_contact() ? 1 : 0);
   const can::NavStatus& status = cable_.status();
-  for (const char* const word :
-       {cable_.ordered() ? "ordered" : "waits", can::kOutcomeWords[static_cast<int>(status.outcome)],
-        name(static_cast<Fault>(status.fault)), state_of(cable_.base())})
+  for (const char* const word : {!cable_.trouble().empty() ? "refused"
+                                 : cable_.ordered()        ? "ordered"
+                                                           : "waits",
+                                 can::kOutcomeWords[static_cast<int>(status.outcome)],
+                                 name(static_cast<Fault>(status.fault)), state_of(cable_.base())})
     line += std::string(word) + ' ';
   return line + to_hex(goes);
 }
@@ -162,7 +164,8 @@ std::string Rig::verdict() const {
                shadow != nullptr && shadow->status().heading_source == localization::HeadingSource::gyro)
       .count("answers", cable_.answers())
       .count("frames", cable_.frames())
-      .text("difference", cable_.difference());
+      .text("difference", cable_.difference())
+      .text("trouble", cable_.trouble());
   return all.whole();
 }
 

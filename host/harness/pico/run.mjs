@@ -30,7 +30,12 @@ const drive = driveOf([args[0], '--robot', robot, ...(seed === undefined ? [] : 
 let running = false;
 drive.until(limit * 1000, (now) => {
   running ||= now.ordered && now.outcome === 'running';
-  return now.contact || now.fault !== 'none' || (running && now.outcome !== 'running' && drive.stands);
+  return (
+    now.refused ||
+    now.contact ||
+    now.fault !== 'none' ||
+    (running && now.outcome !== 'running' && drive.stands)
+  );
 });
 const verdict = drive.rig.verdict();
 drive.close();

@@ -66,6 +66,7 @@ bool PicoRobot::stands() const {
 }
 
 bool PicoRobot::over() const {
+  if (!rig_.cable().trouble().empty()) return true;
   const bool ended =
       fault() != Fault::none || (ran_ && rig_.cable().status().outcome != planning::Outcome::running);
   return rig_.plant().in_contact() || (ended && stands());
