@@ -16,6 +16,12 @@ const BRIEF_MS = 200;
 const HELD_MS = 1500;
 
 const [world, robot = join(ROOT, 'host/robots/pico.toml')] = process.argv.slice(2);
+// Before the simulator starts: it would wait for ever for a process that is gone.
+for (const signal of ['SIGINT', 'SIGTERM'])
+  process.on(signal, () => {
+    drive.close();
+    process.exit(0);
+  });
 const drive = driveOf([world, '--robot', robot, '--listen'], {
   seed: Date.now() & 0xffffffff,
 });
