@@ -23,9 +23,9 @@ interface Pins {
 }
 
 const STYLE = `
-#pins table {width: 100%; margin-bottom: 10px}
+#pins table {width: 100%; margin-bottom: 10px; font-size: 13px}
 #pins td {vertical-align: top; padding-right: 10px}
-#pins td:last-child {padding-right: 0; width: 60%}
+#pins td:last-child {padding-right: 0; width: 58%}
 #pins h3 {margin: 12px 0 4px}
 #pins code {font-size: 12px; overflow-wrap: anywhere}
 #pins td code {display: block; line-height: 1.3}
@@ -123,7 +123,7 @@ export class PinsPanel implements PinsView {
     ]);
     this.say('light', [make('span', pins.led ? 'light on' : 'light'), text(pins.led ? 'on' : 'off')]);
     for (const {name, address, transfers, said} of pins.sensors) {
-      const words = `${this.rates.of(name)} measurements, ${this.rates.of(`${name} asked`)} transfers a second`;
+      const words = `${this.rates.of(name)} measured, ${this.rates.of(`${name} asked`)} transfers / s`;
       this.say(name === 'gyro' ? name : `${name} sensor`, [
         text(transfers === 0 ? 'not asked: gyro is false' : `0x${address.toString(16)}: ${words}`),
         make('code', 'muted', transfers === 0 ? '' : said),
