@@ -59,10 +59,10 @@ stage_gcc() {
 }
 
 stage_web() {
-  build host --target whisker
+  build host --target whisker whisker_rig
   npm --prefix host/lab/web ci --ignore-scripts --no-audit --no-fund
   npm --prefix host/lab/web run check
-  scripts/playground --build-only
+  one_at_a_time pico scripts/playground --build-only
   node --test --test-reporter=tap tests/web/*.test.mjs
 }
 
@@ -109,7 +109,9 @@ stage_targets() {
 
 # pico_tests FILE...: the image of the Pico in its emulator, rp2040js from the npm registry or from npm's cache.
 pico_tests() {
-  npm --prefix host/harness/pico ci --ignore-scripts --no-audit --no-fund
+  # The stage web, beside this one, runs with what is there.
+  npm --prefix host/harness/pico ls >/dev/null ||
+    one_at_a_time pico npm --prefix host/harness/pico ci --ignore-scripts --no-audit --no-fund
   build host --target whisker_rig whisker
   build pico
   node --test --test-reporter=tap "$@"
@@ -186,7 +188,7 @@ stage_long() {
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" ctest --preset host --no-tests=error -LE '^(targets|vcan|vm)$'
   scripts/chip --build
   ctest --preset host --no-tests=error -L '^targets$' -V -j 1
-  scripts/playground --build-only
+  one_at_a_time pico scripts/playground --build-only
   node --test --test-reporter=tap tests/web/core.test.mjs
   pico_tests tests/pico/*.test.mjs
 }

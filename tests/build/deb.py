@@ -1,4 +1,5 @@
-"""The Debian package: what it depends on, what it holds, and other projects that use it, by pkg-config and by find_package.
+"""A release (scripts/release): its image and its sums, and its Debian package: what that depends on, what it holds, and other
+projects that use it, by pkg-config and by find_package.
 
 usage: deb.py ROOT BUILD WORK_FOLDER CMAKE GENERATOR C_COMPILER CXX
 """
@@ -15,15 +16,17 @@ from version import of_header
 
 HELD = (
     "bin/whisker", "include/whisker/firmware/robot.hpp", "include/whisker/firmware/c/whisker.h", "include/whisker/hal/drive.hpp",
-"lib/libwhisker_core.a", "lib/libwhisker_c.a", "lib/pkgconfig/whisker.pc",
+    "lib/libwhisker_core.a", "lib/libwhisker_c.a", "lib/pkgconfig/whisker.pc",
     "lib/cmake/whisker/whiskerConfig.cmake", "share/doc/whisker/copyright", "share/whisker/robots/hc-sr04.toml",
-    "share/man/man1/whisker.1", "share/bash-completion/completions/whisker",
+    "share/man/man1/whisker.1", "share/bash-completion/completions/whisker", "share/whisker/whisker.uf2",
 )  # fmt: skip
 
 
 class Package:
-    def __init__(self, root, build, work, cmake):
-        run(pathlib.Path(cmake).parent / "cpack", "--config", f"{build}/CPackConfig.cmake", "-B", work / "made")
+    def __init__(self, root, build, work):
+        self.image = work / "image.uf2"
+        self.image.write_bytes(bytes(range(256)) * 2)  # the real one is of the stage pico
+        run(f"{root}/scripts/release", "--of", build, self.image, work / "made")
         (self.file,) = (work / "made").glob("*.deb")
         run("dpkg-deb", "--extract", self.file, work / "tree")
         self.root, self.work, self.usr = root, work, work / "tree/usr"
@@ -35,6 +38,18 @@ class Package:
     def pkg_config(self, *options):
         only_here = f"PKG_CONFIG_LIBDIR={self.usr}/lib/pkgconfig"
         return shlex.split(run("env", only_here, "pkg-config", *options, "whisker").stdout)
+
+
+def release_problems(package):
+    made = package.file.parent
+    run("sh", "-c", 'cd "$1" && sha256sum --strict --check SHA256SUMS', "sh", made)
+    summed = sorted(line.split()[1] for line in (made / "SHA256SUMS").read_text().splitlines())
+    held = sorted(path.name for path in made.iterdir() if path.name != "SHA256SUMS")
+    if summed != held or held != ["whisker.uf2", package.file.name]:
+        yield f"it holds {held}, with sums of {summed}"
+    for file in (made / "whisker.uf2", package.usr / "share/whisker/whisker.uf2"):
+        if file.is_file() and file.read_bytes() != package.image.read_bytes():
+            yield f"{file} is not the image"
 
 
 def content_problems(package, version):
@@ -86,13 +101,14 @@ def main(root, build, work, cmake, generator, c_compiler, cxx):
     work.mkdir(parents=True)
     problems = []
     try:
-        package = Package(root, build, work, cmake)
+        package = Package(root, build, work)
+        problems += release_problems(package)
         problems += content_problems(package, of_header(pathlib.Path(root, "firmware/version.hpp").read_text()))
         problems += by_pkg_config(package, c_compiler, cxx)
         problems += by_find_package(package, cmake, generator, cxx)
     except Failure as failure:
         problems.append(str(failure))
-    return finish("the Debian package", len(HELD), problems)
+    return finish("the release", len(HELD), problems)
 
 
 if __name__ == "__main__":

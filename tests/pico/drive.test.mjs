@@ -2,7 +2,7 @@
 // computer, for the same readings and times.
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
-import {Drive} from '../../host/harness/pico/drive.mjs';
+import {driveOf} from '../../host/harness/pico/rig.mjs';
 import {ROBOT, SONAR, generated, robotWith, world} from './worlds.mjs';
 
 const MOST_STACK = 3072;
@@ -48,7 +48,7 @@ describe('the image of the Pico', () => {
     for (const seed of [1, 2, 3]) robots.push([generated(kind, seed), ROBOT]);
   for (const [name, robot, extra = ''] of robots) {
     test(`drives to the goal: ${name}${extra}`, () => {
-      const drive = new Drive([world(name), '--robot', robot]);
+      const drive = driveOf([world(name), '--robot', robot]);
       try {
         let running = false;
         drive.until(LONGEST_MS, (now) => {

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import {describe, test} from 'node:test';
 import {PINS} from '../../host/harness/pico/body.mjs';
 import {Chip} from '../../host/harness/pico/chip.mjs';
-import {Drive} from '../../host/harness/pico/drive.mjs';
+import {driveOf} from '../../host/harness/pico/rig.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
 import {ROBOT, SONAR, robotWith, world} from './worlds.mjs';
 
@@ -22,7 +22,7 @@ const MOST_LATE_NS = 10000; // 2 mm
 
 /** A robot that has begun to move. */
 function moving(robot = ROBOT) {
-  const drive = new Drive([world('discs'), '--robot', robot]);
+  const drive = driveOf([world('discs'), '--robot', robot]);
   assert.ok(
     drive.until(8000, ({ordered, speeds}) => ordered && speeds.some((speed) => Math.abs(speed) > MOVES_UM_S)),
     'it moves',
@@ -317,7 +317,7 @@ function damaged(flash) {
 }
 
 describe('at the start', () => {
-  const starts = (prepare) => new Drive([world('discs'), '--robot', ROBOT, '--listen'], {prepare});
+  const starts = (prepare) => driveOf([world('discs'), '--robot', ROBOT, '--listen'], {prepare});
   test('a sensor that is not there: range_lost, and no motion', () => {
     const drive = starts(() => {});
     try {
@@ -329,7 +329,7 @@ describe('at the start', () => {
     }
   });
   test('HC-SR04 before the parameters say so: range_lost, and no motion', () => {
-    const drive = new Drive([world('discs'), '--robot', SONAR, '--listen']);
+    const drive = driveOf([world('discs'), '--robot', SONAR, '--listen']);
     try {
       assert.ok(drive.until(6000, ({fault}) => fault === 'range_lost'));
       assert.ok(drive.rig.verdict().path_m < 1e-3);
@@ -432,7 +432,7 @@ function commits(flash, speed) {
     chip.flash.powerFor = flash.powerFor;
     chip.flash.worn = flash.worn;
   };
-  const drive = new Drive([world('discs'), '--robot', robot], {prepare});
+  const drive = driveOf([world('discs'), '--robot', robot], {prepare});
   try {
     drive.until(2000, ({ordered}) => ordered || drive.chip.resets.length > 1);
     return {flash: drive.chip.flash, resets: drive.chip.resets};

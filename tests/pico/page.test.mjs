@@ -42,7 +42,7 @@ async function said(command) {
 const block = (name) =>
   new RegExp(`<!-- ${name}:begin -->\n\`\`\`\n([^]*?)\`\`\``).exec(PAGE)[1].trim().split('\n');
 
-/** Calls use(cable, says) with a robot behind a pseudo terminal, by these words of scripts/pico; says() a line to it. */
+/** Calls use(cable, says, process) with a robot behind a pseudo terminal, by these words of scripts/pico; says() a line to it. */
 async function beside(words, use) {
   const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty', ...words], {stdio: ['pipe', 'pipe', 'ignore']});
   try {
@@ -52,11 +52,40 @@ async function beside(words, use) {
       if (cable !== null) break;
     }
     assert.ok(cable);
-    await use(cable, (line) => robot.stdin.write(`${line}\n`));
+    await use(cable, (line) => robot.stdin.write(`${line}\n`), robot);
   } finally {
     robot.kill('SIGINT');
   }
 }
+
+/** The processes that this one has started, and theirs. */
+const startedBy = (pid) =>
+  readFileSync(`/proc/${pid}/task/${pid}/children`, 'latin1')
+    .split(' ')
+    .filter(Boolean)
+    .flatMap((child) => [child, ...startedBy(child)]);
+
+function hasEnded(pid) {
+  try {
+    return / Z /.test(readFileSync(`/proc/${pid}/stat`, 'latin1'));
+  } catch {
+    return true;
+  }
+}
+
+async function soon(what) {
+  for (let i = 0; i < 100 && !what(); i++) await sleep(100);
+  assert.ok(what(), `${what}`);
+}
+
+test('SIGTERM ends the robot, and all that it has started', {timeout: 60000}, () =>
+  beside([], async (cable, tell, robot) => {
+    await soon(() => startedBy(robot.pid).length > 0);
+    const all = [robot.pid, ...startedBy(robot.pid)];
+    robot.kill('SIGTERM');
+    await soon(() => all.every(hasEnded));
+  }),
+);
 
 const evening = (words, lines, says) =>
   beside(words, async (cable) => {

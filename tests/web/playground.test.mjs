@@ -247,6 +247,7 @@ describe('the playground', () => {
       'Boundary and thesis',
       'Boundary and map',
       'Drive it yourself',
+      'A Pico',
     ]);
     await page.waitForFunction(() => location.hash.includes('planner=thesis'));
     await page.click('#who-both');

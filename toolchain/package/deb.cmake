@@ -1,4 +1,4 @@
-# The Debian package of the command, the libraries and their headers: cpack --config build/demo/CPackConfig.cmake
+# The Debian package of the command, the libraries and their headers: scripts/release
 set(whisker_doc ${CMAKE_INSTALL_DATAROOTDIR}/doc/whisker)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${whisker_doc} RENAME copyright)
 install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${whisker_doc})

@@ -1,8 +1,15 @@
 #include "host/harness/hil/guard_replay.hpp"
 
-#include <fmt/format.h>
-
 namespace whisker::hil {
+
+std::string difference_of(const can::WheelCommand& recorded, const char* who, const hal::WheelSpeeds& now) {
+  if (recorded.speeds.left == now.left && recorded.speeds.right == now.right) return {};
+  const auto words = [](const hal::WheelSpeeds& s) {
+    return std::to_string(s.left) + " " + std::to_string(s.right);
+  };
+  return "tick " + std::to_string(recorded.tick) + ": recorded " + words(recorded.speeds) + ", the " + who +
+         " says " + words(now) + " (0.1 mm/s)";
+}
 
 void GuardReplay::execute(can::Order order, const Params& params) {
   guard_->execute(order, params);
@@ -54,13 +61,7 @@ GuardReplay::Step GuardReplay::step(const can::InputSet& set, const Answer& reco
   braked_ = false;
   const hal::WheelSpeeds& speeds = recorded.command.speeds;
   still_ = still_ && speeds.left == 0 && speeds.right == 0;
-  Step out{status.command, ""};
-  if (status.command.left != speeds.left || status.command.right != speeds.right) {
-    out.difference =
-        fmt::format("tick {}: recorded {} {}, the guard says {} {} (0.1 mm/s)", recorded.command.tick,
-                    speeds.left, speeds.right, status.command.left, status.command.right);
-  }
-  return out;
+  return {status.command, difference_of(recorded.command, "guard", status.command)};
 }
 
 }  // namespace whisker::hil

@@ -13,6 +13,9 @@
 
 namespace whisker::hil {
 
+/// What `who` answers now instead of what is recorded; "": the same.
+std::string difference_of(const can::WheelCommand& recorded, const char* who, const hal::WheelSpeeds& now);
+
 /// Gives a guard the velocities that each GuardStatus says were asked. A GuardStatus belongs to the command
 /// before it. A log may lack it: the node sends it once, and drops it if the bus takes it too late. Then the
 /// operator's own frames say what was asked.

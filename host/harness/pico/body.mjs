@@ -175,6 +175,6 @@ export class Body {
     });
     this.gyro.pass(Number(words[12]), Number(words[13]));
     const hex = words.at(-1);
-    if (hex !== '-') this.mcu.uart[0].feed(Buffer.from(hex, 'hex'));
+    if (hex !== '-') this.mcu.uart[0].feed(hex.match(/../g).map((pair) => parseInt(pair, 16)));
   }
 }

@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint8_t kRobot = 1;
 constexpr std::uint64_t kAgain_us = 200000;
+/// For an answer.
+constexpr std::uint64_t kPatience_us = 3000000;
 /// The robot keeps the parameters and rests again.
 constexpr std::uint64_t kRest_us = 400000;
 
@@ -88,10 +90,32 @@ void Cable::send(const M& message) {
   tap_.send(can::encode(message, kRobot, alive_.next()), can::kEventLife_ms);
 }
 
-void Cable::ask(const can::ParamRequest& request) {
-  if (asked_us_ && now_us_ - *asked_us_ < kAgain_us) return;
-  asked_us_ = now_us_;
-  send(request);
+void Cable::enter(Phase phase) {
+  phase_ = phase;
+  since_us_ = now_us_;
+  asked_us_.reset();
+  reply_.reset();
+}
+
+void Cable::give_up(const std::string& why) {
+  trouble_ = why;
+  enter(Phase::gave_up);
+}
+
+bool Cable::asked(const can::ParamRequest& request) {
+  const std::string what = request.action == can::ParamAction::commit
+                               ? "the parameters"
+                               : "parameter " + std::to_string(request.index);
+  if (reply_ && reply_->index == request.index && reply_->status != can::ParamStatus::busy) {
+    if (reply_->status == can::ParamStatus::ok) return true;
+    give_up(what + ": " + can::kParamStatusWords[static_cast<int>(reply_->status)]);
+  } else if (now_us_ - since_us_ > kPatience_us) {
+    give_up(what + ": no answer");
+  } else if (!asked_us_ || now_us_ - *asked_us_ >= kAgain_us) {
+    asked_us_ = now_us_;
+    send(request);
+  }
+  return false;
 }
 
 void Cable::act() {
@@ -102,40 +126,34 @@ void Cable::act() {
       } else if (now_us_ - since_us_ > kRest_us) {
         // From here on, the frames say all that a core on this computer needs.
         shadow_.emplace(kRobot, planner_);
-        phase_ = Phase::sends;
+        enter(Phase::sends);
       }
       return;
-    case Phase::sends: {
-      if (replied(index_) && reply_->status == can::ParamStatus::ok) {
-        reply_.reset();
-        asked_us_.reset();
-        ++index_;
+    case Phase::sends:
+      for (std::uint32_t raw = 0; index_ < kParams; ++index_) {
+        if (!can::read_param(params_, index_, raw)) continue;
+        if (!asked({can::ParamAction::write, index_, raw})) return;
+        enter(Phase::sends);
       }
-      std::uint32_t raw = 0;
-      while (index_ < kParams && !can::read_param(params_, index_, raw)) ++index_;
-      if (index_ < kParams) return ask({can::ParamAction::write, index_, raw});
-      phase_ = Phase::commits;
-      return;
-    }
+      return enter(Phase::commits);
     case Phase::commits:
-      if (replied(can::kCommitIndex) && reply_->status == can::ParamStatus::ok) {
-        phase_ = Phase::rests;
-        since_us_ = now_us_;
-        return;
-      }
-      return ask({can::ParamAction::commit, can::kCommitIndex, 0});
+      if (asked({can::ParamAction::commit, can::kCommitIndex, 0})) enter(Phase::rests);
+      return;
     case Phase::rests:
       if (!runs()) since_us_ = now_us_;
       if (now_us_ - since_us_ < kRest_us) return;
       orders_.begin();
-      phase_ = Phase::orders;
-      return;
+      return enter(Phase::orders);
     case Phase::orders:
-      if (!orders_.answered(can::Order::start, goal_, now_us_)) return;
+      if (!orders_.answered(can::Order::start, goal_, now_us_)) {
+        if (now_us_ - since_us_ > kPatience_us) give_up("the goal: no answer");
+        return;
+      }
+      if (!orders_.accepted()) return give_up("the goal is refused");
       ordered_us_ = now_us_;
-      phase_ = Phase::drives;
-      return;
-    case Phase::drives: return;
+      return enter(Phase::drives);
+    case Phase::drives:
+    case Phase::gave_up: return;
   }
 }
 

@@ -11,7 +11,7 @@
 #include "firmware/robot.hpp"
 #include "hal/ports/slcan/slcan.hpp"
 #include "host/harness/hil/operator_orders.hpp"
-#include "host/harness/hil/replay.hpp"
+#include "host/harness/hil/replayer.hpp"
 #include "host/harness/hil/tap.hpp"
 
 namespace whisker::pico {
@@ -42,10 +42,11 @@ class Cable {
   /// Whether it also gives parameters and a goal, or only listens.
   void listen_only() { listens_ = true; }
 
+  /// Why the robot gets no goal: it refuses a parameter, or the goal, or gives no answer. "": it gets it.
+  const std::string& trouble() const { return trouble_; }
   /// The goal was accepted.
   bool ordered() const { return phase_ == Phase::drives; }
   std::uint64_t ordered_us() const { return ordered_us_; }
-  bool accepted() const { return orders_.accepted(); }
   /// Of the last answer.
   const can::NavStatus& status() const { return status_; }
   const can::WheelCommand& command() const { return command_; }
@@ -53,18 +54,20 @@ class Cable {
   const can::Heartbeat& base() const { return base_; }
   std::uint64_t frames() const { return frames_; }
   std::uint64_t answers() const { return answers_; }  ///< that were compared
-  /// Of the core on this computer, at the last tick; null: none yet.
-  const Status* inside() const { return shadow_ && followed_ ? &shadow_->status() : nullptr; }
+  /// The core on this computer after its last tick; null: it has taken none.
+  const hil::Shadow* shadow() const { return shadow_ && followed_ ? &*shadow_ : nullptr; }
   /// The first answer that the core on this computer would not have given; "": none.
   std::string difference() const { return shadow_ ? shadow_->difference() : std::string(); }
 
  private:
-  enum class Phase { waits, sends, commits, rests, orders, drives };
+  enum class Phase { waits, sends, commits, rests, orders, drives, gave_up };
 
   void hear(const hal::CanFrame& frame);
   void act();
-  void ask(const can::ParamRequest& request);
-  bool replied(std::uint8_t index) const { return reply_ && reply_->index == index; }
+  /// True: it is done. What is refused, or not answered, ends the talk.
+  bool asked(const can::ParamRequest& request);
+  void enter(Phase phase);
+  void give_up(const std::string& why);
   bool runs() const;
   template <class M>
   void send(const M& message);
@@ -86,9 +89,10 @@ class Cable {
   bool speaks_ = false;  // the robot does
   std::uint8_t index_ = 0;
   std::optional<can::ParamReply> reply_;
+  std::string trouble_;
   std::optional<std::uint64_t> asked_us_;
   can::AliveSender alive_;
-  std::uint64_t since_us_ = 0;
+  std::uint64_t since_us_ = 0;  // of the phase, or of the parameter
   std::uint64_t ordered_us_ = 0;
   can::NavStatus status_;
   can::WheelCommand command_;

@@ -1,9 +1,6 @@
 // The image drives in a world: chip, body and simulator, a millisecond at a time.
-import {readFileSync} from 'node:fs';
 import {Body} from './body.mjs';
 import {Chip} from './chip.mjs';
-import {IMAGE} from './paths.mjs';
-import {Rig} from './rig.mjs';
 
 const MS = 1e6;
 const STANDS_UM_S = 1000;
@@ -12,28 +9,43 @@ const RAM_TOP = 256 * 1024;
 
 export class Drive {
   ms = 0;
+  /** FNV-1a over all that the board does to its motors and its cable. */
+  hash = 0x811c9dc5;
   /** Takes what the robot sends, instead of the simulator. */
   takesBytes = null;
   /** Of the simulator's last line. */
-  now = {ordered: false, outcome: 'none', fault: 'none', base: 'off_bus', speeds: [0, 0], contact: false};
-  /** prepare(chip): before the power comes. The sensors are those of the robot's file. */
-  constructor(rigArguments, {image = IMAGE, seed = 1, prepare = () => {}} = {}) {
+  now = {
+    ordered: false,
+    refused: false,
+    outcome: 'none',
+    fault: 'none',
+    base: 'off_bus',
+    speeds: [0, 0],
+    contact: false,
+  };
+  /**
+   * rig: asked once a millisecond, as host/harness/pico/rig.hpp says. uf2: what is flashed. sonar: HC-SR04 instead of
+   * VL53L0X. prepare(chip): before the power comes.
+   */
+  constructor(rig, uf2, {sonar = false, seed = 1, prepare = () => {}} = {}) {
+    this.rig = rig;
     this.chip = new Chip({seed});
-    this.chip.flash.load(readFileSync(image));
-    const robot = rigArguments[rigArguments.indexOf('--robot') + 1];
-    this.body = new Body(this.chip, /^sonar = true/m.test(readFileSync(robot, 'utf8')));
-    this.rig = new Rig(rigArguments);
+    this.chip.flash.load(uf2);
+    this.body = new Body(this.chip, sonar);
     prepare(this.chip);
     this.chip.powerOn();
   }
   step() {
     this.chip.run(++this.ms * MS);
     this.takesBytes?.(this.body.sent.splice(0));
-    const words = this.rig.ask(this.body.line()).split(' ');
+    const line = this.body.line();
+    for (let i = 0; i < line.length; i++) this.hash = Math.imul(this.hash ^ line.charCodeAt(i), 0x01000193);
+    const words = this.rig.ask(line).split(' ');
     this.body.feel(words);
     const [left, right, contact, ordered, outcome, fault, base] = words.slice(14, 21);
     this.now = {
       ordered: ordered === 'ordered',
+      refused: ordered === 'refused',
       outcome,
       fault,
       base,
@@ -41,6 +53,9 @@ export class Drive {
       contact: contact === '1',
     };
     this.firstCommandMs ??= this.body.motors.asleep ? undefined : this.ms;
+  }
+  get commands() {
+    return (this.hash >>> 0).toString(16).padStart(8, '0');
   }
   /** Until done(), or for so many milliseconds. True: it was done. */
   until(ms, done) {

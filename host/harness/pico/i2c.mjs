@@ -11,6 +11,8 @@ export class I2cBus {
   /** A device that stopped in the midst of a byte holds the data line for so many clocks; Infinity: a short circuit. */
   heldFor = 0;
   transfers = 0;
+  /** By device: how often it was addressed, and by the first byte that was written, the bytes that were read. */
+  traffic = new Map();
 
   constructor(chip, number, pins) {
     this.chip = chip;
@@ -37,10 +39,19 @@ export class I2cBus {
       this.transfers++;
       device = this.devices.find((d) => d.answers(address)) ?? null;
       if (mode === I2CMode.Write) device?.begin();
+      if (device) this.#note(device, mode);
       after(9, () => controller.completeConnect(device !== null));
     };
-    controller.onWriteByte = (byte) => after(9, () => controller.completeWrite(device.write(byte)));
-    controller.onReadByte = () => after(9, () => controller.completeRead(device.read()));
+    controller.onWriteByte = (byte) => {
+      this.#spoken.register ??= byte;
+      after(9, () => controller.completeWrite(device.write(byte)));
+    };
+    controller.onReadByte = () =>
+      after(9, () => {
+        const byte = device.read();
+        this.#spoken.bytes.push(byte);
+        controller.completeRead(byte);
+      });
     controller.onStop = () => after(1, () => controller.completeStop());
     // After an abort, the chip flushes what is written until the program has read IC_CLR_TX_ABRT.
     const write = controller.writeUint32.bind(controller);
@@ -78,6 +89,16 @@ export class I2cBus {
       low = pulled;
     });
     data.addListener(() => this.#level());
+  }
+  #spoken = null;
+  #note(device, mode) {
+    const known = this.traffic.get(device) ?? {transfers: 0, register: null, bytes: [], read: new Map()};
+    this.traffic.set(device, known);
+    this.#spoken = known;
+    known.transfers++;
+    known.bytes = [];
+    if (mode === I2CMode.Write) known.register = null;
+    else known.read.set(known.register, known.bytes);
   }
   #level = () => {};
   #bitNs(mcu) {

@@ -6,8 +6,8 @@
 import {readSync, writeSync} from 'node:fs';
 import {createInterface} from 'node:readline';
 import {join} from 'node:path';
-import {Drive} from './drive.mjs';
 import {ROOT} from './paths.mjs';
+import {driveOf} from './rig.mjs';
 
 const CABLE = 3;
 const SLICE_MS = 20;
@@ -16,7 +16,13 @@ const BRIEF_MS = 200;
 const HELD_MS = 1500;
 
 const [world, robot = join(ROOT, 'host/robots/pico.toml')] = process.argv.slice(2);
-const drive = new Drive([world, '--robot', robot, '--listen'], {
+// Before the simulator starts: it would wait for ever for a process that is gone.
+for (const signal of ['SIGINT', 'SIGTERM'])
+  process.on(signal, () => {
+    drive.close();
+    process.exit(0);
+  });
+const drive = driveOf([world, '--robot', robot, '--listen'], {
   seed: Date.now() & 0xffffffff,
 });
 const buffer = Buffer.alloc(4096);

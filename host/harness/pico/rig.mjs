@@ -1,9 +1,10 @@
 // The simulator in its own process, asked once a millisecond of the robot's time, without waiting for events.
 import {execFileSync, spawn} from 'node:child_process';
-import {closeSync, mkdtempSync, openSync, readSync, rmSync, writeSync} from 'node:fs';
+import {closeSync, mkdtempSync, openSync, readFileSync, readSync, rmSync, writeSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {ROOT} from './paths.mjs';
+import {Drive} from './drive.mjs';
+import {IMAGE, ROOT} from './paths.mjs';
 
 const PROGRAM = process.env.WHISKER_RIG ?? join(ROOT, 'build/host/host/harness/pico/whisker_rig');
 
@@ -43,4 +44,10 @@ export class Rig {
     closeSync(this.in);
     rmSync(this.folder, {recursive: true});
   }
+}
+
+/** A drive with a simulator of its own. args: of whisker_rig; the sensors are those of their robot's file. */
+export function driveOf(args, {image = IMAGE, ...options} = {}) {
+  const robot = readFileSync(args[args.indexOf('--robot') + 1], 'utf8');
+  return new Drive(new Rig(args), readFileSync(image), {sonar: /^sonar = true/m.test(robot), ...options});
 }

@@ -3,8 +3,8 @@
 // The image of the Raspberry Pi Pico drives the simulated robot through a world. Needs build/pico/whisker.uf2 and
 // build/host.
 import {join} from 'node:path';
-import {Drive} from './drive.mjs';
 import {ROOT} from './paths.mjs';
+import {driveOf} from './rig.mjs';
 import {XIP_MISS_CYCLES} from './strict.mjs';
 
 const args = process.argv.slice(2);
@@ -24,13 +24,18 @@ if (args.length !== 1) {
   process.exit(2);
 }
 const began = process.hrtime.bigint();
-const drive = new Drive([args[0], '--robot', robot, ...(seed === undefined ? [] : ['--seed', seed])], {
+const drive = driveOf([args[0], '--robot', robot, ...(seed === undefined ? [] : ['--seed', seed])], {
   prepare: (chip) => (chip.countsMisses = countsMisses),
 });
 let running = false;
 drive.until(limit * 1000, (now) => {
   running ||= now.ordered && now.outcome === 'running';
-  return now.contact || now.fault !== 'none' || (running && now.outcome !== 'running' && drive.stands);
+  return (
+    now.refused ||
+    now.contact ||
+    now.fault !== 'none' ||
+    (running && now.outcome !== 'running' && drive.stands)
+  );
 });
 const verdict = drive.rig.verdict();
 drive.close();
@@ -39,6 +44,7 @@ const sorted = [...body.ticks].sort((a, b) => a - b);
 const seconds = Number(process.hrtime.bigint() - began) / 1e9;
 const figures = {
   ...verdict,
+  commands: drive.commands,
   first_command_ms: drive.firstCommandMs,
   tick_cycles_mean: Math.round(sorted.reduce((sum, cycles) => sum + cycles, 0) / sorted.length),
   tick_cycles_worst: sorted.at(-1),

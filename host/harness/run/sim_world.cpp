@@ -41,4 +41,13 @@ SimWorld::SimWorld(const Scenario& scenario) : world_(make_world(scenario)) {
            world_.soft.empty() ? nullptr : world_.soft.data()};
 }
 
+void adopt_world(Scenario& to, const Scenario& from) {
+  to.goal = from.goal;
+  to.bounds = from.bounds;
+  to.discs = from.discs;
+  to.polygons = from.polygons;
+  to.walls = from.walls;
+  to.movers = from.movers;
+}
+
 }  // namespace whisker

@@ -22,4 +22,7 @@ class SimWorld {
   sim::WorldView view_;
 };
 
+/// Copies obstacles and goal.
+void adopt_world(Scenario& to, const Scenario& from);
+
 }  // namespace whisker

@@ -1,5 +1,9 @@
 #include "host/harness/scenario/sensor_models.hpp"
 
+#include <string>
+
+#include "host/harness/scenario/text.hpp"
+
 namespace whisker {
 namespace {
 

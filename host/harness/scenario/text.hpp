@@ -17,7 +17,12 @@ std::string toml_string(std::string_view text);
 /// The known word most similar to a misspelt one; empty if none is close.
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& known);
 
-std::string lower_case(std::string_view text);
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
 
 /// Without the blanks around it.
 std::string_view trimmed(std::string_view text);

@@ -14,6 +14,7 @@
 #include "host/harness/scenario/nearest.hpp"
 #include "host/harness/worlds/kept.hpp"
 #include "host/lab/play/drive.hpp"
+#include "host/lab/play/exports.hpp"
 #include "host/lab/play/flat.hpp"
 #include "host/lab/play/guard_drive.hpp"
 #include "host/lab/play/rule_faults.hpp"
@@ -21,17 +22,15 @@
 #include "host/lab/report/track.hpp"
 #include "host/lab/report/units.hpp"
 
-#define WHISKER_EXPORT(NAME) extern "C" [[clang::export_name(#NAME)]]
-
 namespace whisker::play {
-namespace {
-
-constexpr int kSides = 2;
 
 std::vector<double> exchanged;
+std::unique_ptr<SimulatedRobot> robots[kSides];
+
+namespace {
+
 fuzzy::RuleBase rules = fuzzy::kRules;
 fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
-std::unique_ptr<SimulatedRobot> robots[kSides];
 /// The one of them that the user drives, if there is one.
 GuardDrive* driven = nullptr;
 
@@ -245,10 +244,10 @@ WHISKER_EXPORT(map) int map_cells(int side) {
   return answer();
 }
 
-/// Of the reference robot: radius, track, top speed, side angle and cone in half turns, minimum and maximum
-/// range, offset, cell, base turn in half turns, period.
-WHISKER_EXPORT(robot) int robot() {
-  const Params p;
+/// Of the robot on this side, or of the reference robot: radius, track, top speed, side angle and cone in
+/// half turns, minimum and maximum range, offset, cell, base turn in half turns, period.
+WHISKER_EXPORT(robot) int robot(int side) {
+  const Params p = side >= 0 ? robots[side]->params() : Params{};
   exchanged = {metres(p.body.radius),
                metres(p.body.track),
                p.wheels.max_speed.raw() / 1e6,

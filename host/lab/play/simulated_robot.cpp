@@ -18,13 +18,4 @@ void SimulatedRobot::note(sim::Vec2 at, int kind) {
   if (far || (square > 0 && kind != way_.back().kind)) way_.push_back({at, kind});
 }
 
-void adopt_world(Scenario& to, const Scenario& from) {
-  to.goal = from.goal;
-  to.bounds = from.bounds;
-  to.discs = from.discs;
-  to.polygons = from.polygons;
-  to.walls = from.walls;
-  to.movers = from.movers;
-}
-
 }  // namespace whisker::play

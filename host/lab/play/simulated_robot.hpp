@@ -57,7 +57,4 @@ class SimulatedRobot {
   std::vector<Passed> way_;
 };
 
-/// Copies what change() adopts.
-void adopt_world(Scenario& to, const Scenario& from);
-
 }  // namespace whisker::play

@@ -1,8 +1,8 @@
-// What both pages are bundled with: build.mjs and playground.mjs.
+// What the pages are bundled with: build.mjs and playground.mjs.
 import {readFile} from 'node:fs/promises';
 import {build} from 'esbuild-wasm';
 
-const here = (path) => new URL(path, import.meta.url);
+export const here = (path) => new URL(path, import.meta.url);
 // Dark colours are written once; the system's choice and the reader's button both use them.
 const DARK = /:root\[data-theme='dark'\] \{([^}]*)\}/;
 
@@ -10,7 +10,7 @@ const BLOCKS =
   'html|head|meta|title|link|body|header|main|section|div|h1|h2|h3|p|nav|dl|dt|dd|ul|li|table|thead|tbody|tr|th|td|' +
   'figure|figcaption|dialog|noscript|script|style|form|fieldset|details|summary';
 
-async function bundled(options) {
+export async function bundled(options) {
   const result = await build({
     bundle: true,
     minify: true,

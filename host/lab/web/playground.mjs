@@ -1,13 +1,15 @@
-// Builds the playground's page, one file. usage: node playground.mjs MODULE.wasm PAGE.html
+// Builds the playground: its page, and the file beside it that the page takes for a Pico.
+// usage: node playground.mjs MODULES IMAGE.uf2 FOLDER
 import {deflateSync} from 'node:zlib';
 import {readFile, writeFile} from 'node:fs/promises';
-import {bundledPage} from './bundle.mjs';
+import {join} from 'node:path';
+import {bundled, bundledPage, here} from './bundle.mjs';
 
-const MOST_BYTES = 260_000;
+const MOST = {'index.html': 260_000, 'pico.js': 620_000};
 
 /**
  * The number of zeros that fill the last word, then four bytes in five characters of ( to |, low digit first; } stands
- * for <. src/playground/main.ts reads it.
+ * for <. src/playground/packed.ts reads it.
  */
 function base85(bytes) {
   const fill = -bytes.length & 3;
@@ -20,22 +22,48 @@ function base85(bytes) {
   return text.replaceAll('<', '}');
 }
 
-const [module, file] = process.argv.slice(2);
-if (!file) {
-  console.error('usage: node playground.mjs MODULE.wasm PAGE.html');
+const packed = (bytes) => base85(deflateSync(bytes, {level: 9}));
+
+async function module(file) {
+  const wasm = await readFile(file);
+  const imports = WebAssembly.Module.imports(await WebAssembly.compile(wasm));
+  if (imports.length > 0) throw new Error(`${file} imports ${imports.map(({name}) => name).join(', ')}`);
+  return wasm;
+}
+
+/** A script that gives all that a Pico needs to the page. */
+async function picoScript(wasm, uf2) {
+  const source = (name) => bundled({entryPoints: [here(`src/playground/${name}`).pathname], format: 'iife'});
+  const [view, worker, licence] = await Promise.all([
+    source('pico_page.ts'),
+    source('pico_worker.mjs'),
+    readFile(here('../../harness/pico/node_modules/rp2040js/LICENSE'), 'utf8'),
+  ]);
+  const parts = {worker, module: packed(wasm), image: packed(uf2)};
+  return `/*\nrp2040js: ${licence.trim()}\n*/\n${view}\nObject.assign(whiskerPico,${JSON.stringify(parts)})\n`;
+}
+
+const [modules, image, folder] = process.argv.slice(2);
+if (!folder) {
+  console.error('usage: node playground.mjs MODULES IMAGE.uf2 FOLDER');
   process.exit(2);
 }
-const wasm = await readFile(module);
-const imports = WebAssembly.Module.imports(await WebAssembly.compile(wasm));
-if (imports.length > 0) throw new Error(`the module imports ${imports.map(({name}) => name).join(', ')}`);
-const page = await bundledPage({
-  html: 'playground.html',
-  sheets: ['style.css', 'playground.css'],
-  entry: 'playground/main.ts',
-  more: {module: base85(deflateSync(wasm, {level: 9}))},
-});
-if (page.length > MOST_BYTES) throw new Error(`${page.length} bytes; at most ${MOST_BYTES}`);
-await writeFile(file, page);
-console.log(
-  `${file}: ${page.length} bytes, of them ${wasm.length} bytes of WebAssembly before they are packed`,
-);
+const [plain, withPico, uf2] = await Promise.all([
+  module(join(modules, 'whisker.wasm')),
+  module(join(modules, 'whisker_pico.wasm')),
+  readFile(image),
+]);
+const files = {
+  'index.html': await bundledPage({
+    html: 'playground.html',
+    sheets: ['style.css', 'playground.css'],
+    entry: 'playground/main.ts',
+    more: {module: packed(plain)},
+  }),
+  'pico.js': await picoScript(withPico, uf2),
+};
+for (const [name, text] of Object.entries(files)) {
+  if (text.length > MOST[name]) throw new Error(`${name}: ${text.length} bytes; at most ${MOST[name]}`);
+  await writeFile(join(folder, name), text);
+  console.log(`${name}: ${text.length} bytes of at most ${MOST[name]}`);
+}

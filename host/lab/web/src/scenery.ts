@@ -101,7 +101,7 @@ export class Scenery {
     this.asBelieved(c, tick, () => {
       map.draw(c, p, pixel, tick);
       if (run.guide(tick) !== 'place') return;
-      map.drawWayPoint(c, p, pixel, [at('est_x_m'), at('est_y_m')], [at('way_x_m'), at('way_y_m')]);
+      map.drawWayPoint(c, p, pixel, [at('grid_x_m'), at('grid_y_m')], [at('way_x_m'), at('way_y_m')]);
     });
   }
 

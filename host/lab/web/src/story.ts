@@ -23,9 +23,9 @@ export interface Story {
   facts(result: Result | null): [term: string, value: string][];
 }
 
-/** Shows the elements for one kind of run and hides those for the other. */
-export function showPartsOf(kind: 'mission' | 'guard'): void {
+/** Shows the elements for one kind of run and hides those for others. */
+export function showPartsOf(kind: 'mission' | 'guard' | 'pico'): void {
   for (const part of document.querySelectorAll<HTMLElement>('[data-of]')) {
-    part.hidden = part.dataset.of !== kind;
+    part.hidden = !part.dataset.of!.split(' ').includes(kind);
   }
 }

@@ -6,6 +6,7 @@ import {stateColour} from '../mission_story.ts';
 import {FAULTS, metres, sentence, shownName, verdict, verdictClass} from '../words.ts';
 import {GuardRun} from './guard_run.ts';
 import type {LiveRun} from './live.ts';
+import {PicoRun} from './pico.ts';
 
 export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const part = (name: string) => card.querySelector<HTMLElement>(`[data-part=${name}]`)!;
@@ -15,7 +16,8 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const {time, way} = run.result;
   const {ended} = run;
   const yours = run instanceof GuardRun;
-  say('planner', yours ? 'you drive' : `${shownName(run.planner)} planner`);
+  const chip = run instanceof PicoRun;
+  say('planner', yours ? 'you drive' : chip ? 'a Pico drives' : `${shownName(run.planner)} planner`);
   say('state', shownName(yours ? run.reason : run.mode()));
   const colour = yours ? run.colour : stateColour(run, 0);
   part('state').style.setProperty('--chip', theme.palette[colour]);
@@ -23,7 +25,7 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const fault = run.fault();
   say(
     'sentence',
-    (yours ? run.sentence : sentence(run.mode(), run.why(), run.guide(), speedOf(run, 0))) +
+    ((yours || chip ? run.sentence : '') || sentence(run.mode(), run.why(), run.guide(), speedOf(run, 0))) +
       (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
   );
   say('verdict', ended ? verdict(ended, time) : '');

@@ -3,6 +3,7 @@ import {element, make, setText} from '../dom.ts';
 import {showMapKeys, showPathKeys} from '../legend.ts';
 import {ending, shownName} from '../words.ts';
 import {YOU} from './driver.ts';
+import {PICO} from './pico.ts';
 import type {Playground} from './playground.ts';
 import type {Stage} from './stage.ts';
 
@@ -86,7 +87,8 @@ export class Controls {
   private whoButton(who: string, team: readonly string[]): HTMLElement {
     const names = team.map(shownName);
     const words =
-      who === YOU ? 'Drive it yourself' : names.length > 1 ? names.join(' and ') : `${names[0]} planner`;
+      {[YOU]: 'Drive it yourself', [PICO]: 'A Pico'}[who] ??
+      (names.length > 1 ? names.join(' and ') : `${names[0]} planner`);
     const button = make('button', '', words[0].toUpperCase() + words.slice(1));
     button.id = `who-${who}`;
     button.setAttribute('type', 'button');

@@ -23,7 +23,7 @@ interface Exports {
   clear_cells(side: number): number;
   map_bytes(side: number): number;
   map(side: number): number;
-  robot(): number;
+  robot(side: number): number;
   get_rules(): number;
   set_rules(): number;
   set_table(hash: number): number;
@@ -94,23 +94,28 @@ export class Core {
   readonly words: Record<keyof typeof WORDS, string[]>;
   readonly robot: RobotInfo;
 
-  private constructor(private readonly wasm: Exports) {
+  constructor(private readonly wasm: Exports) {
     wasm._initialize();
     this.words = Object.fromEntries(
       Object.entries(WORDS).map(([name, which]) => [name, this.wordsOf(which)]),
     ) as Record<keyof typeof WORDS, string[]>;
-    const [radius, track, max_speed, side, cone, min_range, max_range, offset, cell, turn, period] =
-      this.read(wasm.robot());
-    const pi = Math.PI;
-    this.robot = {
-      radius, track, max_speed, min_range, max_range, offset, cell, period,
-      side_angle: side * pi, cone: cone * pi, base_turn: turn * pi,
-    }; // prettier-ignore
+    this.robot = this.robotOf(-1);
   }
 
   static async load(bytes: Uint8Array): Promise<Core> {
     const {instance} = await WebAssembly.instantiate(bytes as BufferSource, {});
     return new Core(instance.exports as unknown as Exports);
+  }
+
+  /** The robot on this side; -1: the reference robot. */
+  robotOf(side: number): RobotInfo {
+    const [radius, track, max_speed, side_angle, cone, min_range, max_range, offset, cell, turn, period] =
+      this.read(this.wasm.robot(side));
+    const pi = Math.PI;
+    return {
+      radius, track, max_speed, min_range, max_range, offset, cell, period,
+      side_angle: side_angle * pi, cone: cone * pi, base_turn: turn * pi,
+    }; // prettier-ignore
   }
 
   /** Null if no world of that kind exists for this seed. */
@@ -235,7 +240,7 @@ export class Core {
     return this.read(this.wasm.sample_table());
   }
 
-  private write(numbers: number[]): void {
+  write(numbers: number[]): void {
     const at = this.wasm.list(numbers.length);
     new Float64Array(this.wasm.memory.buffer, at, numbers.length).set(numbers);
   }

@@ -26,7 +26,7 @@ function showMeter(id: string, asked: number, granted: number, colour: string): 
 
 export class DriveBar {
   private readonly hand: Hand;
-  private shown: boolean | null = null;
+  private shown = '';
   /** By reason. */
   private readonly keys: HTMLElement[];
 
@@ -60,11 +60,11 @@ export class DriveBar {
 
   update(): void {
     const {play, driver} = this;
-    if (this.shown !== play.drivenByUser) {
-      this.shown = play.drivenByUser;
-      showPartsOf(this.shown ? 'guard' : 'mission');
+    if (this.shown !== play.kind) {
+      this.shown = play.kind;
+      showPartsOf(play.kind);
       this.hand.release();
-      if (this.shown && matchMedia(SMALL).matches) element('cards').scrollIntoView();
+      if (play.drivenByUser && matchMedia(SMALL).matches) element('cards').scrollIntoView();
     }
     const run = play.runs[0];
     const drives = run instanceof GuardRun;

@@ -16,7 +16,7 @@ export interface Grant {
   share: Velocity;
 }
 
-export class GuardRun extends LiveRun {
+export class GuardRun extends LiveRun<Core> {
   declare grant: Grant;
   private readonly ways = new CommandArcs(this, {
     asked: () => this.grant.asked,
@@ -66,7 +66,6 @@ export class GuardRun extends LiveRun {
     this.driver.note(this.result.time);
     this.core.command(forward, turning);
     super.advance(ticks);
-    this.result = this.core.result(this.side);
     if (this.result.outcome === 'contact') this.driver.touched();
   }
 

@@ -17,7 +17,23 @@ export interface Stretch {
 /** Colours and widths of the classes of the path. */
 export type Looks = Omit<WayLooks, 'column'>;
 
-export class LiveRun implements Seen {
+/** What a run needs of the core that drives it. */
+export type Driven = Pick<
+  Core,
+  | 'words'
+  | 'robot'
+  | 'begin'
+  | 'change'
+  | 'advance'
+  | 'record'
+  | 'result'
+  | 'way'
+  | 'clearCells'
+  | 'mapBytes'
+  | 'map'
+>;
+
+export class LiveRun<C extends Driven = Driven> implements Seen {
   /** The only tick. */
   readonly tick = 0;
   info: Seen['info'];
@@ -33,7 +49,7 @@ export class LiveRun implements Seen {
   nearest = Infinity;
 
   constructor(
-    protected readonly core: Core,
+    protected readonly core: C,
     protected readonly side: number,
     readonly planner: string,
     situation: Situation,
@@ -77,7 +93,14 @@ export class LiveRun implements Seen {
   }
 
   advance(ticks: number): void {
-    if (!this.over) this.core.advance(this.side, ticks);
+    if (this.over) return;
+    this.core.advance(this.side, ticks);
+    this.result = this.core.result(this.side);
+  }
+
+  /** It cannot follow yet. */
+  get waits(): boolean {
+    return false;
   }
 
   change(situation: Situation): void {

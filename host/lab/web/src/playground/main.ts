@@ -1,5 +1,4 @@
 import {CloseUp} from '../closeup.ts';
-import {inflated} from '../columns.ts';
 import {Address, sayLinkFault} from '../address.ts';
 import {element, setText} from '../dom.ts';
 import {ResponsePanel} from '../response.ts';
@@ -15,6 +14,8 @@ import {Driver, MOST_TURNING} from './driver.ts';
 import {offerFiles} from './files.ts';
 import {notesOf} from './native.ts';
 import {NO_NOISE, NoisePanel} from './noise_panel.ts';
+import {unpacked} from './packed.ts';
+import {Chip} from './pico.ts';
 import {Playground} from './playground.ts';
 import {RulesPanel} from './rules_panel.ts';
 import {hashOf, stateOf, type State} from './share.ts';
@@ -28,31 +29,21 @@ const PANELS_EVERY = 80;
 
 const NO_SUCH_WORLD = 'its world is not valid, or too large for this page';
 
-/** The core, out of the base 85 that playground.mjs writes. */
-async function module(): Promise<Uint8Array> {
-  const text = (element('module').textContent ?? '').trim().replaceAll('}', '<');
-  const words = new Uint32Array((text.length - 1) / 5);
-  for (let i = text.length - 1; i > 0; --i) {
-    const at = Math.floor((i - 1) / 5);
-    words[at] = words[at] * 85 + text.charCodeAt(i) - 40;
-  }
-  return inflated(new Uint8Array(words.buffer, 0, words.byteLength - Number(text[0])));
-}
-
 async function open(): Promise<void> {
   const theme = new Theme();
-  const core = await Core.load(await module());
+  const core = await Core.load(await unpacked(element('module').textContent ?? ''));
   const first = await stateOf(location.hash, core.words, FIRST);
   const answers = answersOf(core.rules());
   const controller = controllerOf(core, answers);
   const driver = new Driver(core.robot);
+  const chip = new Chip(core);
   let play: Playground;
   sayLinkFault(first.fault);
   try {
-    play = new Playground(core, first.state, driver);
+    play = new Playground(core, first.state, driver, chip);
   } catch {
     sayLinkFault(NO_SUCH_WORLD);
-    play = new Playground(core, FIRST, driver);
+    play = new Playground(core, FIRST, driver, chip);
   }
   document.body.dataset.view = 'playground';
   element('playground').hidden = false;
@@ -120,6 +111,10 @@ async function open(): Promise<void> {
     address.change();
   });
   stage.onChange(request);
+  chip.onTold = () => {
+    for (const run of play.runs) run.refresh();
+    request();
+  };
   theme.onChange(() => {
     response.restyle();
     request();
@@ -140,7 +135,7 @@ async function open(): Promise<void> {
   if (play.state.rules) rules.setCode(play.state.rules);
   play.begin();
   // For tests, measurements and the console.
-  Object.assign(window, {whisker: {play, core, stage, driver}});
+  Object.assign(window, {whisker: {play, core, stage, driver, chip}});
   play.playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
   last = performance.now();
   request();

@@ -2,13 +2,16 @@
 import type {HashNote} from './cards.ts';
 import recorded from './native.json';
 import {YOU} from './driver.ts';
+import {PicoRun} from './pico.ts';
 import type {Playground} from './playground.ts';
 
 const HASHES: Record<string, string> = recorded;
 
 export function notesOf({runs, state, opened, touched}: Playground): HashNote[] {
   const plain = !state.own && !state.rules && !opened && state.noise.every((x) => x === 0);
-  return runs.map(({planner, over}) => {
+  return runs.map((run) => {
+    const {planner, over} = run;
+    if (run instanceof PicoRun) return {native: null, words: run.compared};
     const native = (plain && HASHES[`${state.kind} ${state.seed} ${planner}`]) || null;
     if (touched) return {native: null, words: 'changed during the run: restart it to compare'};
     if (!over && planner !== YOU) return {native, words: 'of the run so far'};

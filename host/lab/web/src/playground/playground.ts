@@ -7,6 +7,7 @@ import {YOU, type Driver} from './driver.ts';
 import {GuardRun} from './guard_run.ts';
 import {LiveRun} from './live.ts';
 import type {OpenedTable} from './opened_table.ts';
+import {PICO, PicoRun, type Chip} from './pico.ts';
 import {teamsOf, type State, type Teams} from './share.ts';
 import type {Situation} from './situation.ts';
 import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
@@ -37,6 +38,7 @@ export class Playground {
     private readonly core: Core,
     public state: State,
     private readonly driver: Driver,
+    private readonly chip: Chip,
   ) {
     this.situation = this.given();
     this.begin();
@@ -51,6 +53,10 @@ export class Playground {
   }
   get planners(): readonly string[] {
     return this.teams[this.state.who];
+  }
+  /** Which parts of the page belong to the run. */
+  get kind(): 'mission' | 'guard' | 'pico' {
+    return this.drivenByUser ? 'guard' : this.state.who === PICO ? 'pico' : 'mission';
   }
   get drivenByUser(): boolean {
     return this.state.who === YOU;
@@ -70,11 +76,12 @@ export class Playground {
   /** Restarts the run in the current world. */
   begin(): void {
     this.situation = {...this.situation, noise: this.state.noise};
-    this.runs = this.planners.map((planner, side) =>
-      planner === YOU
-        ? new GuardRun(this.core, this.situation, this.driver)
-        : new LiveRun(this.core, side, planner, this.situation),
-    );
+    this.chip.stop();
+    this.runs = this.planners.map((planner, side) => {
+      if (planner === YOU) return new GuardRun(this.core, this.situation, this.driver);
+      if (planner === PICO) return new PicoRun(this.chip, this.situation);
+      return new LiveRun(this.core, side, planner, this.situation);
+    });
     this.touched = false;
     this.owed = 0;
     this.hurried = false;
@@ -180,9 +187,10 @@ export class Playground {
     const {period} = this.core.robot;
     this.owed = this.hurried ? Infinity : this.owed + (seconds * this.speed) / period;
     const until = performance.now() + (this.hurried ? HURRIED_BUDGET : BUDGET);
-    while (this.owed >= 1 && !this.over && performance.now() < until) {
+    const waits = () => this.runs.some((run) => run.waits);
+    while (this.owed >= 1 && !this.over && !waits() && performance.now() < until) {
       const ticks = Math.min(BATCH, Math.floor(this.owed));
-      for (const run of this.runs) this.drive(run, ticks);
+      for (const run of this.runs) run.advance(ticks);
       this.owed -= ticks;
     }
     // Time that the machine cannot simulate in this frame is dropped.
@@ -198,11 +206,6 @@ export class Playground {
     this.changed();
   }
 
-  private drive(run: LiveRun, ticks: number): void {
-    run.advance(ticks);
-    run.result = this.core.result(this.runs.indexOf(run));
-  }
-
   private given(): Situation {
     const {own, kind, seed, noise} = this.state;
     const situation = own ?? this.core.generate(kind, seed, false);
@@ -213,7 +216,8 @@ export class Playground {
   private edit(world: World, thing: Thing | null): boolean {
     const situation = {...this.situation, world};
     if (this.core.judge(situation) !== 'good') return false;
-    const start = thing?.kind === 'start';
+    // A robot takes its goal before it drives.
+    const start = thing?.kind === 'start' || (thing?.kind === 'goal' && this.kind === 'pico');
     if (thing && !start && thing.kind !== 'goal' && !this.clearOfRobots(world, thing)) return false;
     this.situation = situation;
     this.state = {...this.state, own: situation};
@@ -229,9 +233,10 @@ export class Playground {
   }
 
   private clearOfRobots(world: World, thing: Thing): boolean {
-    const least = this.core.robot.radius + KEPT_FREE;
     return this.runs.every(
-      (run) => distanceTo(world, thing, [run.column('x_m')[0], run.column('y_m')[0]]) > least,
+      (run) =>
+        distanceTo(world, thing, [run.column('x_m')[0], run.column('y_m')[0]]) >
+        run.info.robot.radius + KEPT_FREE,
     );
   }
 

@@ -2,13 +2,14 @@
 import {unknownPart} from '../address.ts';
 import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
 import {YOU} from './driver.ts';
+import {PICO} from './pico.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 
-/** By name: each planner alone, some pairs side by side, and the user. */
+/** By name: each planner alone, some pairs side by side, the user, and the Pico. */
 export type Teams = Record<string, readonly string[]>;
 export function teamsOf(planners: string[]): Teams {
   const alone = Object.fromEntries(planners.map((planner) => [planner, [planner]]));
-  return {...alone, both: ['skirt', 'thesis'], 'skirt-map': ['skirt', 'map'], [YOU]: [YOU]};
+  return {...alone, both: ['skirt', 'thesis'], 'skirt-map': ['skirt', 'map'], [YOU]: [YOU], [PICO]: [PICO]};
 }
 
 export interface State {
