@@ -8,6 +8,7 @@
 #include "host/harness/run/pilot.hpp"
 #include "host/harness/run/record.hpp"
 #include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/shapes.hpp"
 
 namespace whisker::pico {
 namespace {
@@ -144,7 +145,6 @@ std::string Rig::answer(const std::string& goes) const {
 std::string Rig::verdict() const {
   const can::NavStatus& status = cable_.status();
   const hil::Shadow* const shadow = cable_.shadow();
-  const sim::Vec2 left = scenario_.goal.at - plant_.pose().at;
   const std::uint64_t driven_us = cable_.ordered() ? now_us_ - cable_.ordered_us() : 0;
   Object all;
   all.text("outcome", can::kOutcomeWords[static_cast<int>(status.outcome)])
@@ -156,7 +156,7 @@ std::string Rig::verdict() const {
       .number("time_s", static_cast<double>(now_us_) * 1e-6)
       .number("drive_s", static_cast<double>(driven_us) * 1e-6)
       .number("path_m", plant_.path_length())
-      .number("distance_m", sim::square_root(sim::dot(left, left)))
+      .number("distance_m", distance(scenario_.goal.at, plant_.pose().at))
       .boolean("contact", plant_.in_contact())
       .number("clearance_m", std::fmin(plant_.min_clearance(), kEmptyWorldClearance))
       .count("bumps", plant_.bumps())

@@ -35,6 +35,14 @@ TickRecord make_record(const Status& status, const RecordingGuide* guide, const 
   return r;
 }
 
+void add_truth(const sim::Plant& plant, TickRecord& record) {
+  record.x_m = plant.pose().at.x;
+  record.y_m = plant.pose().at.y;
+  record.heading_rad = plant.pose().heading;
+  record.v_left_mps = plant.v_left();
+  record.v_right_mps = plant.v_right();
+}
+
 std::optional<Verdict> verdict_of(planning::Outcome outcome) {
   switch (outcome) {
     case planning::Outcome::reached: return Verdict::reached;

@@ -34,12 +34,8 @@ TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& 
                      const hal::RangeReadings& ranges, double t_s) {
   TickRecord r = make_record(status, pilot.guide(), ranges, t_s);
   r.inside = pilot.sees_inside();
-  r.x_m = plant.pose().at.x;
-  r.y_m = plant.pose().at.y;
-  r.heading_rad = plant.pose().heading;
+  add_truth(plant, r);
   r.pressed = plant.bumper().pressed;
-  r.v_left_mps = plant.v_left();
-  r.v_right_mps = plant.v_right();
   return r;
 }
 

@@ -1,8 +1,6 @@
 #include "host/lab/play/guard_drive.hpp"
 
-#include <cmath>
-
-#include "host/lab/report/units.hpp"
+#include "host/harness/run/make_record.hpp"
 
 namespace whisker::play {
 namespace {
@@ -59,35 +57,20 @@ TickRecord GuardDrive::record() const {
   const sim::Plant& plant = body_.plant();
   TickRecord r;
   r.t_s = plant.time();
-  r.x_m = r.est_x_m = plant.pose().at.x;
-  r.y_m = r.est_y_m = plant.pose().at.y;
-  r.heading_rad = r.est_heading_rad = plant.pose().heading;
   r.ranges = plant.ranges();
-  r.v_left_mps = plant.v_left();
-  r.v_right_mps = plant.v_right();
   r.command = body_.sent();
-  if (!body_.wiring().guarded) return r;
-  const sim::Pose& down = body_.put_down();
-  const Pose pose = grid_pose();
-  const double x = report::metres(pose.at.x), y = report::metres(pose.at.y);
-  r.est_x_m = down.at.x + std::cos(down.heading) * x - std::sin(down.heading) * y;
-  r.est_y_m = down.at.y + std::sin(down.heading) * x + std::cos(down.heading) * y;
-  r.est_heading_rad = down.heading + report::radians(pose.heading);
-  if (body_.status().sigma_known) r.sigma = body_.status().sigma;
+  add_truth(plant, r);
+  const bool guarded = body_.wiring().guarded;
+  add_estimate(guarded ? in_world(body_.put_down(), grid_pose()) : plant.pose(), r);
+  if (guarded && body_.status().sigma_known) r.sigma = body_.status().sigma;
   return r;
 }
 
 RunResult GuardDrive::result() const {
   const sim::Plant& plant = body_.plant();
-  RunResult r;
+  RunResult r = way_of(plant, scenario_, ticks_);
   r.verdict = plant.in_contact() ? Verdict::contact : body_.faulted() ? Verdict::fault : Verdict::gave_up;
   r.time_s = plant.in_contact() ? plant.contact_time() : plant.time();
-  r.path_m = plant.path_length();
-  const sim::Vec2 to = scenario_.goal.at - plant.pose().at;
-  r.final_distance_m = std::hypot(to.x, to.y);
-  r.min_clearance_m = std::fmin(plant.min_clearance(), kEmptyWorldClearance);
-  r.goal_tolerance_m = scenario_.goal.tolerance_m;
-  r.ticks = ticks_;
   r.hash = body_.hash();
   return r;
 }

@@ -12,6 +12,7 @@
 #include "host/harness/run/record.hpp"
 #include "host/harness/scenario/scenario.hpp"
 #include "host/harness/sim/geometry.hpp"
+#include "host/harness/sim/plant.hpp"
 
 namespace whisker::play {
 
@@ -56,5 +57,13 @@ class SimulatedRobot {
  private:
   std::vector<Passed> way_;
 };
+
+/// What a robot that takes `origin` for its own believes, in the world.
+sim::Pose in_world(const sim::Pose& origin, const Pose& believed);
+
+void add_estimate(const sim::Pose& believed, TickRecord& record);
+
+/// Where the drive has led; verdict, time and hash are those of its driver.
+RunResult way_of(const sim::Plant& plant, const Scenario& scenario, std::uint64_t ticks);
 
 }  // namespace whisker::play

@@ -161,7 +161,7 @@ export class PicoRun extends LiveRun<Chip> {
     return this.core.waits;
   }
   override get about(): string {
-    return `${this.core.words.abouts[this.core.words.planners.indexOf('map')]} The Pico\'s image has this planner.`;
+    return `${this.core.words.abouts[this.core.words.planners.indexOf('map')]} The Pico's image has this planner.`;
   }
   /** Instead of what it does. */
   get sentence(): string {
