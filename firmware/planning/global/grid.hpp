@@ -12,10 +12,6 @@ using GridWord = perception::Row;
 constexpr int kWordBits = perception::kCells;
 constexpr int kMostWords = 6;
 
-/// Beside a blocked cell narrower than this, there is no room for the centre of a body with a radius of 90
-/// mm.
-constexpr Length kRoom = millimetres(75);
-
 /// A window of words x 32 columns and this number of rows.
 struct GridShape {
   int16_t words = 0;
@@ -24,8 +20,6 @@ struct GridShape {
 
   constexpr int32_t columns() const noexcept { return words * kWordBits; }
   constexpr int32_t size() const noexcept { return int32_t{words} * rows; }
-  /// Cells are narrower than the room that the body needs.
-  constexpr bool fine() const noexcept { return cell < kRoom; }
 };
 
 /// Two bits hold the state of a cell, two its level in the plan.

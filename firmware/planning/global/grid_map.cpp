@@ -153,17 +153,6 @@ void GridMap::free(const perception::LocalGrid& local_grid, Vec body, int32_t ro
   }
 }
 
-GridWord GridMap::too_narrow(int32_t row, int w) const noexcept {
-  if (!shape_.fine()) return 0;
-  const int32_t words = shape_.words;
-  const int32_t i = row * words + w;
-  const GridWord* const here = blocking() + i;
-  GridWord near = beside(w > 0 ? here[-1] : 0, *here, w < words - 1 ? here[1] : 0);
-  if (row > 0) near |= here[-words];
-  if (row < shape_.rows - 1) near |= here[words];
-  return near & ~*here & ~sure()[i];
-}
-
 /// Cells of walls that a beam meets at more than 45 degrees from the normal. A wall is a run of blocked
 /// cells.
 GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
@@ -177,12 +166,11 @@ GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
 
 GridWord GridMap::held(int32_t row, int w, const Hold& hold, GridWord cells) noexcept {
   const int32_t i = row * shape_.words + w;
-  const GridWord solid = blocking()[i] & (hold.strict ? ~GridWord{0} : sure()[i]);
-  cells &= hold.strict ? solid | too_narrow(row, w) : solid;
+  cells &= blocking()[i] & (hold.strict ? ~GridWord{0} : sure()[i]);
   if (cells == 0) return 0;
   cells &= touched(row, w);
   // A cell that blocks has no level, so its bits can say that it is free.
-  const GridWord news = cells & solid & ~own(hold, row, w) & ~level_high()[i];
+  const GridWord news = cells & ~own(hold, row, w) & ~level_high()[i];
   level_low()[i] |= news;
   notes_ = notes_ || news != 0;
   return cells;
@@ -210,23 +198,19 @@ void GridMap::release(const Hold& hold) noexcept {
 }
 
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
-/// where a path may enter. In a fine map a change also affects the room one cell further.
+/// where a path may enter.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
   const int32_t words = shape_.words;
-  const int32_t reach = shape_.fine() ? 2 : 1;
-  if (row < reach || row >= shape_.rows - reach) return ~GridWord{0};
+  if (row == 0 || row == shape_.rows - 1) return ~GridWord{0};
   GridWord near = 0;
   const GridWord* const high = level_high();
   const GridWord* const low = level_low();
-  for (int32_t i = (row - reach) * words + w; i <= (row + reach) * words + w; i += words) {
+  for (int32_t i = (row - 1) * words + w; i <= (row + 1) * words + w; i += words) {
     const auto levels = [&](int32_t at) { return high[at] | low[at]; };
     const GridWord left = w == 0 ? ~GridWord{0} : levels(i - 1);
     const GridWord here = levels(i);
     const GridWord right = w == words - 1 ? ~GridWord{0} : levels(i + 1);
-    near |= here;
-    for (int32_t n = 1; n <= reach; ++n) {
-      near |= here << n | here >> n | left >> (kWordBits - n) | right << (kWordBits - n);
-    }
+    near |= here | beside(left, here, right);
   }
   return near;
 }

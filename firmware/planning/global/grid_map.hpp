@@ -83,10 +83,6 @@ class GridMap {
   GridWord* level_high() const noexcept { return plane(2); }
   GridWord* level_low() const noexcept { return plane(3); }
 
-  /// Unknown cells that are four-neighbours of a blocked cell: there is no room for the body. None if cells
-  /// are wide enough.
-  GridWord too_narrow(int32_t row, int w) const noexcept;
-
  private:
   struct Box;
   GridWord* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * size_; }

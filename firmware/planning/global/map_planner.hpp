@@ -16,8 +16,8 @@ struct MapSize {
 inline constexpr MapSize kMapSizes[] = {{1024, {1, 48, 125_mm}},
                                         {2048, {2, 56, 100_mm}},
                                         {4096, {3, 80, 80_mm}},
-                                        {8192, {4, 124, micrometres(66700)}},
-                                        {16384, {6, 168, 50_mm}}};
+                                        {8192, {4, 124, 80_mm}},
+                                        {16384, {6, 168, 80_mm}}};
 /// Size of the map if none is chosen.
 constexpr int32_t kUsualMapBytes = 2048;
 

@@ -113,8 +113,7 @@ bool Wavefront::reaches_border(const GridMap& map) const noexcept {
 
 GridWord Wavefront::passable(const GridMap& map, int32_t row, int w) const noexcept {
   const int32_t i = row * map.shape().words + w;
-  const GridWord solid =
-      task_.strict ? map.blocking()[i] | map.too_narrow(row, w) : map.blocking()[i] & map.sure()[i];
+  const GridWord solid = task_.strict ? map.blocking()[i] : map.blocking()[i] & map.sure()[i];
   if (row == task_.body.y) return ~solid | columns(task_.body.x, task_.body.x, w);
   return ~solid;
 }
@@ -125,14 +124,12 @@ class Wavefront::Rows {
  public:
   Rows(Wavefront& wavefront, GridMap& map) noexcept
       : wavefront_(wavefront),
-        map_(map),
         shape_(map.shape()),
         blocking_(map.blocking()),
         sure_(map.sure()),
         high_(map.level_high()),
         low_(map.level_low()),
         any_state_(wavefront.task_.strict ? ~GridWord{0} : 0),
-        cramps_(wavefront.task_.strict && map.shape().fine()),
         body_row_(map.holds(wavefront.task_.body) ? wavefront.task_.body.y : kNone),
         goal_row_(map.holds(wavefront.task_.goal) ? wavefront.task_.goal.y : kNone),
         words_(shape_.words) {
@@ -155,21 +152,17 @@ class Wavefront::Rows {
   };
 
   void read(int32_t row, Row& to) const noexcept;
-  // Not inlined, so that read() keeps its words in registers: most maps have no too_narrow cells.
-  [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
   [[gnu::noinline]] void stand_out(Cell at, Row& to) const noexcept;
   void spread(int32_t row, const Row& above, const Row& here, const Row& below) noexcept;
   [[gnu::noinline]] GridWord entering(int32_t row, int w, GridWord fresh) const noexcept;
 
   Wavefront& wavefront_;
-  const GridMap& map_;
   const GridShape& shape_;
   const GridWord* const blocking_;
   const GridWord* const sure_;
   GridWord* const high_;
   GridWord* const low_;
   const GridWord any_state_;            // suspected cells also block
-  const bool cramps_;                   // too_narrow cells also block
   static constexpr int32_t kNone = -2;  // rows -1 and beyond the last are empty
   const int32_t body_row_;
   const int32_t goal_row_;
@@ -232,7 +225,6 @@ inline void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
     to.fresh[w + 1] = open & ~(h | l);
   }
   to.any = any;
-  if (cramps_) cramp(row, to);
   if (row == goal_row_) stand_out(wavefront_.task_.goal, to);
   if (row == body_row_) stand_out(wavefront_.task_.body, to);
 }
@@ -248,14 +240,6 @@ void Wavefront::Rows::stand_out(Cell at, Row& to) const noexcept {
   if (!(at == wavefront_.task_.body)) return;
   to.open[w + 1] |= bit;
   to.fresh[w + 1] |= bit & ~(high_[i] | low_[i]);
-}
-
-void Wavefront::Rows::cramp(int32_t row, Row& to) const noexcept {
-  for (int w = 0; w < shape_.words; ++w) {
-    const GridWord too_narrow = map_.too_narrow(row, w);
-    to.open[w + 1] &= ~too_narrow;
-    to.fresh[w + 1] &= ~too_narrow;
-  }
 }
 
 GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noexcept {

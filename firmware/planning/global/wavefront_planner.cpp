@@ -14,7 +14,8 @@ constexpr int32_t kHeldRowUnits = 6;  // and while a wavefront is under way
 constexpr int32_t kCellUnits = 8;     // of a step on the way
 constexpr int32_t kLineUnits = 2;     // of a cell on a straight line
 constexpr int32_t kWordsMovedAUnit = 2;
-constexpr int32_t kWordsOfUnits = 4;
+constexpr int32_t kUnits = 3;         // of kWords of the wavefront
+constexpr int32_t kWords = 4;
 constexpr int32_t kEndUnits = 200;   // of the end of a wavefront
 constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells that are far away
 constexpr Length kLittle = 400_mm;   // the same if they are at hand
@@ -125,10 +126,10 @@ void WavefrontPlanner::ponder(const View& view) noexcept {
 void WavefrontPlanner::flood(const View& view) noexcept {
   const Work& work = view.local_grid->work();
   if (!wavefront_.over()) {
-    const int32_t words = work.left() * kWordsOfUnits / units_of_words();
+    const int32_t words = work.left() * kWords / kUnits;
     int32_t spare = 0;
     const bool over = wavefront_.run(map_, words, &spare);
-    work.add((words - spare) * units_of_words() / kWordsOfUnits);
+    work.add((words - spare) * kUnits / kWords);
     if (!over || work.left() < kEndUnits) return;
   }
   map_.release(wavefront_.hold());

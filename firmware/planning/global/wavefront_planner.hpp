@@ -59,8 +59,6 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t levels(Length l) const noexcept;
   bool straight(const View& view) const noexcept;
   bool sees(const View& view, Vec to) const noexcept;
-  /// Of Work, for kWordsOfUnits of the wavefront.
-  int32_t units_of_words() const noexcept { return map_.shape().fine() ? 4 : 3; }
   void place_virtual_obstacles() noexcept;
   void place_contacts(const View& view) noexcept;
   bool spent() const noexcept;

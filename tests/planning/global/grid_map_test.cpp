@@ -166,8 +166,7 @@ TEST(GridMap, WhatIsSeenEmptyIsFreeWhateverItWas) {
 }
 
 TEST(GridMap, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
-  for (const GridShape& shape : {kShape, GridShape{6, 57, 50_mm}}) {
-    const int reach = shape.fine() ? 2 : 1;
+  for (const GridShape& shape : {kShape, GridShape{6, 57, 80_mm}}) {
     for (int dy = -3; dy <= 3; ++dy) {
       for (int dx = -3; dx <= 3; ++dx) {
         test::Room room(shape);
@@ -178,36 +177,12 @@ TEST(GridMap, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
         plane[level.y * shape.words + level.x / kWordBits] = GridWord{1} << (level.x % kWordBits);
         const GridMap::Hold hold{{-1, -1}, {-1, -1}, true};
         room.map.mark(observation({}, Angle{}, 2_m, false), &hold);
-        const bool beside = std::abs(dx) <= reach && std::abs(dy) <= reach;
+        const bool beside = std::abs(dx) <= 1 && std::abs(dy) <= 1;
         EXPECT_EQ(room.map.at(p), beside ? CellState::occupied : CellState::free) << dx << ", " << dy;
         room.map.release(hold);
         EXPECT_EQ(room.map.at(p), CellState::free) << dx << ", " << dy;
       }
     }
-  }
-}
-
-TEST(GridMap, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
-  std::mt19937 random(7);
-  for (const GridShape& shape :
-       {GridShape{3, 40, 50_mm}, GridShape{1, 40, micrometres(66700)}, GridShape{3, 40, 80_mm}}) {
-    test::Room room(shape);
-    room.scatter(random, 0.2);
-    for (int y = 10; y < 20; ++y) {
-      for (int x = 20; x < shape.columns(); ++x) {
-        if ((x + y) % 3 == 0) room.map.set({x, y}, CellState::free);
-      }
-    }
-    int too_narrow = 0;
-    for (int y = 0; y < shape.rows; ++y) {
-      for (int x = 0; x < shape.columns(); ++x) {
-        const bool due = test::too_narrow(room.map, {x, y});
-        ASSERT_EQ(room.map.too_narrow(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
-            << x << ", " << y;
-        too_narrow += due;
-      }
-    }
-    EXPECT_EQ(too_narrow > 100, shape.fine());
   }
 }
 

@@ -33,15 +33,4 @@ struct Room {
   planning::GridMap map;
 };
 
-/// By single cells: in a fine map, an unseen cell beside a blocked one.
-inline bool too_narrow(const planning::GridMap& map, planning::Cell p) {
-  if (map.shape().cell >= millimetres(75) || map.at(p) != planning::CellState::unknown) return false;
-  for (const planning::Cell d :
-       {planning::Cell{1, 0}, planning::Cell{-1, 0}, planning::Cell{0, 1}, planning::Cell{0, -1}}) {
-    const planning::Cell q = p + d;
-    if (map.holds(q) && map.at(q) >= planning::CellState::suspect) return true;
-  }
-  return false;
-}
-
 }  // namespace whisker::test

@@ -161,9 +161,6 @@ std::string judge_window(Dice& dice, Room& room) {
     const CellState due = room.map.holds(old) ? before[room.index(old)] : CellState::unknown;
     if (room.map.at(p) != due) wrong = "a moved cell changes";
     if (room.map.place(room.map.middle(p)) != p) wrong = "a cell is not where its middle is";
-    const auto word = static_cast<int>(p.x / planning::kWordBits);
-    const bool narrow = (room.map.too_narrow(p.y, word) >> (p.x % planning::kWordBits) & 1U) != 0;
-    if (narrow != room.too_narrow(p)) wrong = "another cell is too narrow";
   });
   return wrong;
 }
@@ -181,33 +178,27 @@ std::string judge_hold(Dice& dice) {
   room.each([&](Cell p) { before.push_back(room.map.at(p)); });
   Room open(shape, {}, {});
   open.storage = room.storage;
-  const int reach = shape.fine() ? 2 : 1;
   perception::ConeObservation seen = draw_observation(dice, room);
   seen.hit = false;
-  std::vector<bool> narrow;
-  room.each([&](Cell p) { narrow.push_back(room.too_narrow(p)); });
   const planning::GridMap::Hold hold{{-1, -1}, {-1, -1}, true};
   room.map.mark(seen, &hold);
   open.map.mark(seen);
   std::string wrong;
   room.each([&](Cell p) {
     const CellState then = before[room.index(p)];
-    const bool closed = then >= CellState::suspect || narrow[room.index(p)];
-    const bool rim =
-        p.x < reach || p.y < reach || p.x >= shape.columns() - reach || p.y >= shape.rows - reach;
-    const bool near = std::abs(p.x - level.x) <= reach && std::abs(p.y - level.y) <= reach;
+    const bool closed = then >= CellState::suspect;
+    const bool rim = p.x == 0 || p.y == 0 || p.x == shape.columns() - 1 || p.y == shape.rows - 1;
+    const bool near = std::abs(p.x - level.x) <= 1 && std::abs(p.y - level.y) <= 1;
     const CellState due = closed && (near || rim) ? then : open.map.at(p);
-    // What is freed before it may leave a cell room.
-    const bool may_free = narrow[room.index(p)] && room.map.at(p) == open.map.at(p);
     // A cell that is noted to be free holds those beside it, too.
     bool may_stay = false;
-    for (int y = -reach; y <= reach && room.map.at(p) == then; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
+    for (int y = -1; y <= 1 && room.map.at(p) == then; ++y) {
+      for (int x = -1; x <= 1; ++x) {
         const Cell q = p + Cell{x, y};
         may_stay = may_stay || (!(q == p) && room.blocks(q) && !open.blocks(q));
       }
     }
-    if (room.map.at(p) != due && !may_free && !may_stay) wrong = "a plan holds another cell";
+    if (room.map.at(p) != due && !may_stay) wrong = "a plan holds another cell";
   });
   room.map.release(hold);
   room.each([&](Cell p) {

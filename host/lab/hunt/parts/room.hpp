@@ -38,13 +38,6 @@ struct Room {
     return static_cast<std::size_t>(p.y * map.shape().columns() + p.x);
   }
   bool blocks(planning::Cell p) const { return map.holds(p) && map.at(p) >= planning::CellState::suspect; }
-  /// In a fine map, an unseen cell beside a blocked one.
-  bool too_narrow(planning::Cell p) const {
-    if (!map.shape().fine() || map.at(p) != planning::CellState::unknown) return false;
-    using planning::Cell;
-    return blocks(p + Cell{1, 0}) || blocks(p + Cell{-1, 0}) || blocks(p + Cell{0, 1}) ||
-           blocks(p + Cell{0, -1});
-  }
 
   Params params;
   std::vector<planning::GridWord> storage;
@@ -54,8 +47,8 @@ struct Room {
 inline planning::GridShape draw_shape(Dice& dice) {
   const auto words = static_cast<std::int16_t>(1 + dice.index(4));
   const auto rows = static_cast<std::int16_t>(20 + dice.index(50));
-  const Length cells[] = {100_mm, 50_mm, micrometres(66700), 80_mm};
-  return {words, rows, cells[dice.index(4)]};
+  const Length cells[] = {125_mm, 100_mm, 80_mm};
+  return {words, rows, cells[dice.index(3)]};
 }
 
 inline planning::Cell draw_cell(Dice& dice, const planning::GridShape& shape, int beyond = 0) {

@@ -34,7 +34,7 @@ class Levels {
     if (!room_.map.holds(p)) return false;
     if (p == task_.body) return true;
     const CellState s = room_.map.at(p);
-    return s != CellState::occupied && !(task_.strict && (s == CellState::suspect || room_.too_narrow(p)));
+    return s != CellState::occupied && !(task_.strict && s == CellState::suspect);
   }
   /// The last step leads to the goal even if that is blocked.
   bool may_descend(Cell p, Cell way) const {
