@@ -69,8 +69,8 @@ bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
   // A speed too small to matter within one way still adds up.
   const bool crawls = command.left + command.right != Speed{};
   constexpr Length kShortest = perception::LocalGrid::kShortestStep;
-  if (!crawls || abs(rolled) >= kShortest) return true;
   // Twice, because the rounding of a direction may shorten it.
+  if (!crawls || abs(rolled) >= kShortest * 2) return true;
   const Vec crawl = polar(pose.heading, rolled < Length{} ? -(kShortest * 2) : kShortest * 2);
   return !grid.approaches(pose.at, crawl, grid.reach().guard, avoid);
 }

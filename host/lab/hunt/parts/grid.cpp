@@ -130,8 +130,9 @@ std::string judge_way(const LocalGrid& grid, const Params& p, const Pose& pose, 
   const auto one = [&](Vec off) { counted += grid.is_clear(pose.at + off) ? 1000 : 1; };
   grid.each_unclear(pose.at, pose.heading, length, radius, one);
   if (counted != all) return "each unclear cell is not counted once";
-  if (length < LocalGrid::kShortestStep) return "";
-  const bool answer = grid.approaches(pose.at, polar(pose.heading, length), radius);
+  const Vec way = polar(pose.heading, length);
+  if (norm(way) < LocalGrid::kShortestStep) return "";
+  const bool answer = grid.approaches(pose.at, way, radius);
   if (nears && !answer) return "a way nears unclear ground unnoticed";
   if (!may_near && answer) return "a way that nears nothing is refused";
   const bool all_clear = grid.all_clear(pose.at, radius);

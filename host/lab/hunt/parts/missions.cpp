@@ -157,7 +157,7 @@ std::string judge_round(Dice& dice) {
   }
   if (t.body.gap_m() < 0.03 || t.body.world.distance(t.goal) < 0.2) return "";
   const double straight = length_of(t.goal);
-  return t.arrives(25 + 6 * (straight + round), 1.2 * straight + 1.6 * round + 0.6);
+  return t.arrives(28 + 7 * (straight + round), 1.2 * straight + 1.6 * round + 0.6);
 }
 
 /// A door in the only wall between start and goal, as narrow as the planners promise to pass, or wider.
