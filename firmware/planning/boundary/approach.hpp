@@ -55,6 +55,9 @@ class Approach {
 
   /// The same as in GlobalPlanner; false without a guide.
   bool knows_no_way() const noexcept { return guide_ != nullptr && guide_->knows_no_way(); }
+  void pass() noexcept {
+    if (guide_ != nullptr) guide_->pass();
+  }
   bool doubt() noexcept { return guide_ != nullptr && guide_->doubt(); }
 
   /// The guide's way was blocked: the body brakes, and the guide finds another one.

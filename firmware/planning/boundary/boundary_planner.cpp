@@ -123,7 +123,8 @@ void BoundaryPlanner::approach(const View& view) noexcept {
     slits_.look(view, view.pose.heading);
     slits_.look(view, target_.direction());
   }
-  if (approach_.blocked() && try_door(view, view.pose.heading)) return;
+  if (approach_.blocked() && (try_door(view, view.pose.heading) || try_door(view, target_.direction())))
+    return;
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -201,6 +202,7 @@ void BoundaryPlanner::gap(const View& view) noexcept {
       if (target_.distance >= approach_.closest() - for_body(behaviours_.params, kNearer))
         slits_.end_attempt();
       sought_ = false;
+      approach_.pass();
       approach_.measure_anew(view, target_.distance);
       begin_approach(Event::through);
       break;

@@ -191,7 +191,7 @@ Length GapPassage::promised_width(const View& view) const noexcept {
 }
 
 Speed GapPassage::pace() const noexcept {
-  return behaviours_.params.wheels.max_speed * (promised_ ? 2 : 1) / 5;
+  return behaviours_.params.wheels.max_speed * (promised_ ? 3 : 1) / 5;
 }
 
 Vec GapPassage::before(Length reference) const noexcept {

@@ -27,6 +27,8 @@ class GlobalPlanner {
   virtual bool refuse(const View& view) noexcept = 0;
   /// One closed loop is enough: it knows no path, or this is its last try.
   virtual bool knows_no_way() const noexcept = 0;
+  /// The body has passed a gap where the planner had refused to drive.
+  virtual void pass() noexcept = 0;
   /// Boundary following found no path either. True: resets the map's blocked cells to unknown and advises a
   /// last attempt, which ends nearer to the goal than before or with `no_way`.
   virtual bool doubt() noexcept = 0;

@@ -14,12 +14,12 @@ constexpr int32_t kHeldRowUnits = 6;  // and while a wavefront is under way
 constexpr int32_t kCellUnits = 8;     // of a step on the way
 constexpr int32_t kLineUnits = 2;     // of a cell on a straight line
 constexpr int32_t kWordsMovedAUnit = 2;
-constexpr int32_t kUnits = 3;         // of kWords of the wavefront
-constexpr int32_t kWords = 4;
-constexpr int32_t kEndUnits = 200;   // of the end of a wavefront
-constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells that are far away
-constexpr Length kLittle = 400_mm;   // the same if they are at hand
+constexpr int32_t kUnits = 3, kWords = 4;  // units of so many words of the wavefront
+constexpr int32_t kEndUnits = 200;         // of the end of a wavefront
+constexpr Length kDearer = 2500_mm;        // extra cost accepted to avoid suspected cells that are far away
+constexpr Length kLittle = 400_mm;         // the same if they are at hand
 constexpr Length kFarAway = 1500_mm;
+constexpr Length kDecides = 850_mm;  // the beams tell a door from a wall
 constexpr Length kHorizon = 3000_mm;
 constexpr Length kAhead = 600_mm;
 constexpr Length kSlack = 100_mm;
@@ -48,7 +48,7 @@ void WavefrontPlanner::start(const View& view, const Goal& goal) noexcept {
   best_.reset();
   started_um_ = view.travelled_um;
   travel_mm_ = improved_mm_ = 0;
-  for (VirtualObstacle& b : virtual_obstacles_) b = {};
+  pass();
 }
 
 void WavefrontPlanner::move_goal(Vec at) noexcept {
@@ -89,6 +89,10 @@ void WavefrontPlanner::place_virtual_obstacles() noexcept {
       }
     }
   }
+}
+
+void WavefrontPlanner::pass() noexcept {
+  for (VirtualObstacle& b : virtual_obstacles_) b = {};
 }
 
 /// The body may stand on the cell of a contact: a cell may be larger than the body.
@@ -291,9 +295,22 @@ bool WavefrontPlanner::straight(const View& view) const noexcept {
   return dearer(view.pose.at, view.pose.at + ahead) <= reference(kSlack);
 }
 
+/// On its way to the goal, the body drives on until it sees what an echo on the straight line comes from.
+bool WavefrontPlanner::undecided(const View& view) const noexcept {
+  if (has_way_ && !(way_ == goal_.at)) return false;
+  Cell first;
+  const bool open = raytrace(map_, view.pose.at, goal_.at, [&](Cell p) {
+    view.local_grid->work().add(kLineUnits);
+    first = p;
+    return map_.holds(p) && map_.at(p) < CellState::suspect;
+  });
+  return !open && map_.holds(first) && map_.at(first) == CellState::suspect &&
+         farther(map_.middle(first) - view.pose.at, reference(kDecides));
+}
+
 void WavefrontPlanner::find_way(const View& view) noexcept {
   on_ = map_.place(view.pose.at);
-  if (straight(view)) {
+  if (straight(view) || undecided(view)) {
     seen_ = goal_.at;
   } else if (has_way_ && farther(way_ - view.pose.at, reference(kReached)) &&
              dearer(view.pose.at, way_) <= reference(kKept)) {
@@ -360,7 +377,7 @@ bool WavefrontPlanner::doubt() noexcept {
   last_try_ = true;
   drop_plan();
   map_.doubt_all();
-  for (VirtualObstacle& b : virtual_obstacles_) b = {};
+  pass();
   has_way_ = false;
   waits_ = active_ = true;
   refusals_ = 0;

@@ -24,6 +24,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
   bool knows_no_way() const noexcept override { return no_way_ || last_try_; }
+  void pass() noexcept override;
   bool doubt() noexcept override;
 
   const GridMap& map() const noexcept { return map_; }
@@ -59,6 +60,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t levels(Length l) const noexcept;
   bool straight(const View& view) const noexcept;
   bool sees(const View& view, Vec to) const noexcept;
+  bool undecided(const View& view) const noexcept;
   void place_virtual_obstacles() noexcept;
   void place_contacts(const View& view) noexcept;
   bool spent() const noexcept;

@@ -38,6 +38,7 @@ class RecordingGuide final : public planning::GlobalPlanner {
     return goes_on;
   }
   bool knows_no_way() const noexcept override { return guide_.knows_no_way(); }
+  void pass() noexcept override { guide_.pass(); }
   bool doubt() noexcept override { return guide_.doubt(); }
 
   /// Before its first start, its map is no map.

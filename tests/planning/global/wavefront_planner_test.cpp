@@ -120,6 +120,44 @@ TEST_F(Guided, ARefusedWayIsBarred) {
   EXPECT_EQ(advice(), GlobalPlanner::Advice::place);
 }
 
+TEST_F(Guided, WhatBlockedBeforeAGapIsForgottenBehindIt) {
+  const planning::GridMap& map = map_.guide.map();
+  const planning::Cell ahead = map.place({200_mm, Length{}});
+  const auto barred_once_it_is_seen_free = [&] {
+    const Pose behind{{-1_m, Length{}}, {}};
+    view_.observations[0] = {perception::beam_of(mount(params_.rangefinders, hal::kFront), behind), 0, 2_m,
+                             false};
+    view_.observed = 1;
+    stay(60);
+    view_.observed = 0;
+    stay(40);
+    return map.at(ahead) == planning::CellState::occupied;
+  };
+  stay(40);
+  ASSERT_TRUE(map_.guide.refuse(view_));
+  stay(40);
+  EXPECT_TRUE(barred_once_it_is_seen_free());
+  map_.guide.pass();
+  EXPECT_FALSE(barred_once_it_is_seen_free());
+}
+
+TEST_F(Guided, DrivesOnTowardsAnEchoThatIsTooFarAwayToTellADoorFromAWall) {
+  const auto heads_for_goal = [&](Length echo) {
+    map_.guide.start(view_, {kGoal, 100_mm});
+    view_.observations[0] = {perception::beam_of(mount(params_.rangefinders, hal::kFront), {}), 0, echo,
+                             true};
+    view_.observed = 1;
+    stay(1);
+    view_.observed = 0;
+    stay(40);
+    Vec place;
+    EXPECT_EQ(map_.guide.advise(view_, norm(kGoal), place), GlobalPlanner::Advice::place);
+    return place == kGoal;
+  };
+  EXPECT_TRUE(heads_for_goal(1200_mm));
+  EXPECT_FALSE(heads_for_goal(700_mm));
+}
+
 TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
   for (int i = 0; i < hal::kBeams; ++i) {
     view_.observations[i] = {perception::beam_of(mount(params_.rangefinders, i), {}), 0, 250_mm, true};
