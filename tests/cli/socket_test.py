@@ -1,6 +1,7 @@
 """`whisker socket`: the example of docs/integration/socket over TCP, UDP with a lost answer, standard input, and what it refuses."""
 
 import json
+import math
 import pathlib
 import re
 import socket
@@ -13,6 +14,9 @@ from whisker import Case
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 EXAMPLES = ROOT / "docs/integration/socket"
+sys.path.insert(0, str(EXAMPLES))
+import sectors  # an example
+
 HELLO = '{"whisker": 1, "goal": {"x_m": 1, "y_m": 0}}'
 LINES = [HELLO, *(json.dumps({"t_s": i / 100, "range_m": ["clear"] * 3, "counts": [0, 0]}) for i in range(3))]
 
@@ -44,9 +48,14 @@ class Server:
 
 class Socket(Case):
     def test_the_examples_drive_to_the_goal(self):
-        for name, program in (("simulator.py", [sys.executable]), ("simulator.mjs", ["node"])):
-            with self.subTest(name), Server("--tcp", "0", "--json") as server:
-                client = subprocess.run([*program, EXAMPLES / name, str(server.port), "3"], capture_output=True, text=True,
+        lidar = ["--robot", ROOT / "host/robots/owned/turtlebot3.toml"]
+        for name, program, words, robot in (
+            ("simulator.py", [sys.executable], [], []),
+            ("simulator.py", [sys.executable], ["scan"], lidar),
+            ("simulator.mjs", ["node"], [], []),
+        ):
+            with self.subTest(name, words=words), Server("--tcp", "0", "--json", *robot) as server:
+                client = subprocess.run([*program, EXAMPLES / name, str(server.port), "3", *words], capture_output=True, text=True,
                                         timeout=120, check=False)
                 self.assertEqual((client.returncode, client.stderr), (0, ""), client.stdout)
                 status, out, err = server.end()
@@ -55,6 +64,20 @@ class Socket(Case):
                 self.assertEqual(result["outcome"], "reached")
                 self.assertLess(result["believed_distance_m"], 0.1)
                 self.assertIsNone(result["final_distance_m"], "the core does not know")
+
+    def test_a_sector_reads_as_its_nearest_ray(self):
+        beams = [{"angle_deg": a, "cone_deg": 10} for a in (30, 0, -30)]
+
+        def read(rays):
+            scan = [rays.get(deg, math.inf) for deg in range(360)]
+            return sectors.readings(scan, 0, 1, 0.1, beams)
+
+        self.assertEqual(read({}), ["clear"] * 3)
+        self.assertEqual(read({25: 1.5, 35: 1.2, 355: 0.7, 330: 0.05}), [1.2, 0.7, "too_near"])
+        self.assertEqual(read({23: 1, 37: 1, 90: 1}), ["clear"] * 3, "beside the sectors")
+        self.assertEqual(read({28: math.nan, 5: -math.inf, 326: 0.4}), ["invalid", "too_near", 0.4])
+        self.assertEqual(sectors.readings([1.0] * 10, 0, 1, 0.1, beams), ["invalid"] * 3, "half a sector")
+        self.assertEqual(sectors.readings([1.0] * 11, -5, 1, 0.1, beams), ["invalid", 1.0, "invalid"])
 
     def test_udp_answers_a_repeated_line_again(self):
         with Server("--udp", "0") as server, socket.socket(type=socket.SOCK_DGRAM) as client:

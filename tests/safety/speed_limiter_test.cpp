@@ -181,8 +181,8 @@ TEST(SpeedLimiter, ChecksTheWholeWayOfTheSmallestBody) {
   EXPECT_EQ(granted(micrometres(21500)), Q14::ratio(1, 1));
 }
 
-// Around it, nothing has been seen. Rounding shortens the way of a small speed below the shortest one that the
-// grid looks at, but many of them add up.
+// Around it, nothing has been seen. Rounding shortens the way of a small speed below the shortest one that
+// the grid looks at, but many of them add up.
 TEST(SpeedLimiter, NoSpeedIsTooSmallToBeChecked) {
   const Params p;
   int granted = 0, commands = 0;

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A robot in a field of discs, simulated in Python alone and driven by `whisker socket --tcp PORT`.
 
-usage: simulator.py PORT [SEED]      exit status 0: at the goal without a contact
+usage: simulator.py PORT [SEED [scan]]      exit status 0: at the goal without a contact
+With `scan`, the beams are sectors of a lidar of 360 rays, where the first beam is.
 Written from docs/socket.md.
 """
 
@@ -11,7 +12,10 @@ import random
 import socket
 import sys
 
+from sectors import readings
+
 port, seed = int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1
+scans = sys.argv[3:] == ["scan"]
 GOAL, DT = (6.0, 0.0), 0.01
 stream = socket.create_connection(("127.0.0.1", port), timeout=10).makefile("rw", newline="\n")
 
@@ -40,16 +44,25 @@ def reading(beam, x, y, heading):
     return nearest if nearest < beam["max_m"] else "clear"
 
 
+def all_readings():
+    if not scans:
+        return [reading(b, x, y, heading) for b in robot["beams"]]
+    lidar = robot["beams"][0]
+    rays = [reading({**lidar, "angle_deg": deg, "cone_deg": 0}, x, y, heading) for deg in range(360)]
+    return readings([math.inf if r == "clear" else r for r in rays], 0, 1, lidar["min_m"], robot["beams"])
+
+
 robot = ask({"whisker": 1, "goal": {"x_m": GOAL[0], "y_m": GOAL[1], "tolerance_m": 0.1}})
 draw = random.Random(seed)
 discs = [(draw.uniform(0.8, 5.2), draw.uniform(-1.5, 1.5), draw.uniform(0.05, 0.3)) for _ in range(12)]
 discs = [d for d in discs if math.hypot(d[0] - GOAL[0], d[1] - GOAL[1]) > d[2] + 0.4]
 radius, track, per_m = robot["body_radius_m"], robot["wheel_track_m"], robot["encoder_counts_per_m"]
+every = round(1 / robot["range_rate_hz"] / DT)
 x = y = heading = left = right = 0.0
 for tick in range(60000):
     answer = ask({
         "t_s": tick * DT,
-        "range_m": [reading(b, x, y, heading) if tick % 2 == 0 else None for b in robot["beams"]],
+        "range_m": all_readings() if tick % every == 0 else [None] * 3,
         "counts": [math.floor(left * per_m), math.floor(right * per_m)],
     })
     if answer["outcome"] != "running":

@@ -1,6 +1,7 @@
 """A ROS 2 node (rclpy) between a robot's topics and Whisker. Untested: nobody has run it yet.
 
-Subscribes to sensor_msgs/Range on range/left, range/front and range/right, and to sensor_msgs/JointState on joint_states with the joints
+Subscribes to sensor_msgs/Range on range/left, range/front and range/right, or to sensor_msgs/LaserScan on scan, of which each beam is a
+sector (sectors.py, to be put beside this file; docs/socket.md has the premise), and to sensor_msgs/JointState on joint_states with the joints
 left_wheel and right_wheel; publishes geometry_msgs/Twist on cmd_vel. Goals come as geometry_msgs/PoseStamped on goal_pose, in the frame of
 the wheels' odometry. For Gazebo, bridge these topics with ros_gz_bridge. Start `whisker socket --tcp 7000` first.
 """
@@ -12,7 +13,8 @@ import socket
 import rclpy
 from geometry_msgs.msg import PoseStamped, Twist
 from rclpy.node import Node
-from sensor_msgs.msg import JointState, Range
+from sectors import readings
+from sensor_msgs.msg import JointState, LaserScan, Range
 
 BEAMS = ("left", "front", "right")
 
@@ -27,6 +29,7 @@ class Whisker(Node):
         self.goal = self.counts = None
         for beam in BEAMS:
             self.create_subscription(Range, f"range/{beam}", lambda m, beam=beam: self.on_range(beam, m), 1)
+        self.create_subscription(LaserScan, "scan", self.on_scan, 1)
         self.create_subscription(JointState, "joint_states", self.on_joints, 1)
         self.create_subscription(PoseStamped, "goal_pose", self.on_goal, 1)
         self.cmd_vel = self.create_publisher(Twist, "cmd_vel", 1)
@@ -45,6 +48,11 @@ class Whisker(Node):
         # REP 117: infinite is clear, minus infinite too near, and no number a lost reading.
         r = message.range
         self.fresh[beam] = "invalid" if math.isnan(r) else "too_near" if r == -math.inf else "clear" if r > message.max_range else r
+
+    def on_scan(self, message):
+        first, step = math.degrees(message.angle_min), math.degrees(message.angle_increment)
+        sectors = readings(message.ranges, first, step, message.range_min, self.hello["beams"])
+        self.fresh = dict(zip(BEAMS, sectors))
 
     def on_joints(self, message):
         turned = dict(zip(message.name, message.position))
