@@ -37,8 +37,7 @@ class Oracle {
     if (!map_.holds(p)) return false;
     const CellState s = map_.at(p);
     if (p == task_.body) return true;
-    return s != CellState::occupied &&
-           !(task_.strict && s == CellState::suspect);
+    return s != CellState::occupied && !(task_.strict && s == CellState::suspect);
   }
   bool enters(Cell p, int l) const {
     const Cell g = task_.goal;
