@@ -34,6 +34,8 @@ export class Chip {
   resets = [];
   lockup = false;
   crystalDead = false;
+  /** The PLL of the USB never locks. */
+  usbClockDead = false;
   /** Of the flash's cache, if they are counted. */
   misses = 0;
   countsMisses = false;
