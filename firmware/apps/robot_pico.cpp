@@ -1,8 +1,9 @@
-// A whole robot on a Raspberry Pi Pico. Its serial line is a node of a CAN bus: `whisker bench --tty` gives
-// it goals and parameters.
+// A whole robot on a Raspberry Pi Pico. Its USB and its serial line are nodes of a CAN bus: `whisker bench
+// --tty` gives it goals and parameters.
 #include "firmware/apps/can/whole_robot.hpp"
 #include "hal/boards/pico/robot_board.hpp"
 #include "hal/ports/slcan/slcan.hpp"
+#include "hal/ports/two_ports.hpp"
 
 namespace {
 
@@ -28,8 +29,10 @@ int main() {
   static RobotBoard board;
   if (!board.start()) board.refuse();
   static hal::slcan::Slcan line(board.line(), hal::slcan::Role::adapter);
+  static hal::slcan::Slcan usb(board.usb(), hal::slcan::Role::adapter);
+  static hal::TwoPorts<hal::slcan::Slcan> cables(line, usb);
   static can_app::WholeRobot robot(
-      line, board.boot_number(), kRobotParams,
+      cables, board.boot_number(), kRobotParams,
       {board.rangefinders(), board.drive(), board.button(), &board.bumper(), &board.gyro()},
       {board.storage(FlashUse::response_table), board.storage(FlashUse::calibration),
        board.storage(FlashUse::parameters)});

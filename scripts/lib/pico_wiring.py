@@ -60,7 +60,7 @@ def drawing():
         '<rect width="860" height="540" fill="#ffffff"/>',
         '<rect x="350" y="34" width="160" height="476" rx="10" fill="#e8f5ee" stroke="#1e8449"/>',
         '<rect x="408" y="24" width="44" height="26" fill="#bdc3c7" stroke="#7f8c8d"/>',
-        '<text x="430" y="530" text-anchor="middle">Raspberry Pi Pico, USB at the top</text>',
+        '<text x="430" y="530" text-anchor="middle">Raspberry Pi Pico; at the top, its USB: power, file, orders</text>',
     ]
     for i, name in enumerate(BOARD):
         x, y, side = position(i + 1)

@@ -99,9 +99,9 @@ def host_error(path, quoted):
 def app_error(quoted, system):
     if system is not None:
         return None if system in FREESTANDING else "a program for a chip has only <stdint.h> and <stddef.h>"
-    if re.fullmatch(rf"{CONTRACT}|firmware/.+|hal/ports/(slcan/.+|can_queue\.hpp)|hal/boards/.+", quoted):
+    if re.fullmatch(rf"{CONTRACT}|firmware/.+|hal/ports/(slcan/.+|(can_queue|two_ports)\.hpp)|hal/boards/.+", quoted):
         return None
-    return "a program for a chip includes firmware/, the contracts, hal/ports/slcan/, the queues of ports, and its board"
+    return "a program for a chip includes firmware/, the contracts, hal/ports/slcan/, the queues of ports, two ports as one, and its board"
 
 
 def errors(path, text, exists):

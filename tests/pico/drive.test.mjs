@@ -36,6 +36,7 @@ describe('the image of the Pico', () => {
     ['u_trap', ROBOT],
     ['room', ROBOT],
     ['discs', SONAR, ', with HC-SR04'],
+    ['u_trap', ROBOT, ', over USB', {usb: true}],
   ];
   // At night, also a gyro, and worlds of the generator.
   const FULL = ', with a gyro and a bumper';
@@ -46,9 +47,9 @@ describe('the image of the Pico', () => {
     );
   for (const kind of process.env.WHISKER_LONG ? ['discs', 'u-trap', 'rooms'] : [])
     for (const seed of [1, 2, 3]) robots.push([generated(kind, seed), ROBOT]);
-  for (const [name, robot, extra = ''] of robots) {
+  for (const [name, robot, extra = '', options = {}] of robots) {
     test(`drives to the goal: ${name}${extra}`, () => {
-      const drive = driveOf([world(name), '--robot', robot]);
+      const drive = driveOf([world(name), '--robot', robot], options);
       try {
         let running = false;
         drive.until(LONGEST_MS, (now) => {
@@ -67,6 +68,8 @@ describe('the image of the Pico', () => {
         assert.ok(verdict.answers > 500);
         assert.deepEqual(drive.chip.sins, []);
         assert.deepEqual(drive.chip.faults, []);
+        assert.deepEqual(drive.body.usb.complaints, []);
+        assert.equal(drive.body.usb.enumerations, options.usb ? 1 : 0);
         assert.deepEqual(drive.chip.resets, ['power']);
         const worst = Math.max(...drive.body.ticks);
         assert.ok(worst < MOST_CYCLES, `a tick of ${worst} cycles`);

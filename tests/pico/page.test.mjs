@@ -119,7 +119,11 @@ async function listed(words, hands, ...options) {
   const file = join(folder, 'selftest.json');
   let status = null;
   await beside(words, async (cable, tell) => {
-    await sleep(BETWEEN_MS);
+    // A slow computer needs seconds until the robot has started and the host knows its port.
+    for (let i = 0, nodes = ''; i < TRIES && !/controller [^]*base /.test(nodes); i++) {
+      await sleep(BETWEEN_MS);
+      nodes = await said(`build/host/whisker bench watch --nodes --tty ${cable}`);
+    }
     const [program, ...command] = block('selftest')[0].replace('$CABLE', cable).split(' ');
     const bench = spawn(program, [...command, '--out', file, ...options], {cwd: ROOT});
     bench.stdout.resume();

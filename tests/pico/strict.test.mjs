@@ -5,6 +5,7 @@ import {createRequire} from 'node:module';
 import {describe, test} from 'node:test';
 import {Chip} from '../../host/harness/pico/chip.mjs';
 import {crcOfBoot2, blocksOf} from '../../host/harness/pico/flash.mjs';
+import {UsbHost} from '../../host/harness/pico/usb_host.mjs';
 
 const require = createRequire(new URL('../../host/harness/pico/package.json', import.meta.url));
 const {RP2040} = await import(require.resolve('rp2040js').replace('/cjs/', '/esm/'));
@@ -204,6 +205,147 @@ describe('resets and clocks', () => {
   });
 });
 
+const USB = 0x50110000;
+const SHARED = 0x50100000; // memory of the controller and the program
+const IN_CONTROL = SHARED + 0x90; // of endpoint 2
+const [GIVEN, DATA1, STALL] = [0x400, 0x2000, 0x800];
+
+/** Stores of a program that has a bulk endpoint of the USB, with or without its clock. */
+function withUsb(mcu, {clock = true, pullup = true} = {}) {
+  mcu.writeUint32(0x4000f000, (1 << 24) | (1 << 13));
+  if (clock) {
+    mcu.writeUint32(0x4002c008, 100); // PLL_USB
+    mcu.writeUint32(0x4002f004, 0x21);
+    mcu.writeUint32(0x4002c00c, 0x55000);
+    mcu.clock.tick?.(1e5);
+    mcu.writeUint32(0x40008054, 0x800);
+  }
+  mcu.writeUint32(SHARED + 0x10, 0xa80001c0);
+  mcu.writeUint32(USB + 0x74, 9);
+  mcu.writeUint32(USB + 0x78, 0xc);
+  mcu.writeUint32(USB + 0x90, 0x1f010);
+  mcu.writeUint32(USB + 0x40, 1);
+  mcu.writeUint32(USB + 0x4c, 0x20000000 + (pullup ? 0x10000 : 0));
+}
+/** As a driver must: AVAILABLE after the rest. */
+function give(there, word) {
+  there.mcu.writeUint32(IN_CONTROL, word);
+  there.run(20);
+  there.mcu.writeUint32(IN_CONTROL, word | GIVEN);
+}
+const FULL_PACKET = 0x8000 + 5; // of 5 bytes
+const sent = ({mcu}) => (mcu.readUint32(USB + 0x58) & 0x10) !== 0;
+
+describe('USB', () => {
+  const wait = Array(100).fill(0x46c0);
+  const bareUsb = (options) => bare(wait, {}, (mcu) => withUsb(mcu, options));
+  const strictUsb = (options) => strict(wait, {}, (mcu) => withUsb(mcu, options));
+  test('a packet is sent when a host takes it', () => {
+    const gone = bareUsb({pullup: false});
+    give(gone, FULL_PACKET);
+    assert.ok(sent(gone), 'the bare package needs no host, and no pull-up');
+    const there = strictUsb();
+    give(there, FULL_PACKET);
+    assert.ok(!sent(there));
+    const {data1, bytes} = there.mcu.usbCtrl.in(0, 2, 'bulk');
+    assert.deepEqual([data1, bytes.length], [false, 5]);
+    assert.ok(sent(there));
+    assert.deepEqual(there.mcu.usbCtrl.in(0, 2, 'bulk'), {nak: true});
+    assert.deepEqual(there.chip.sins, []);
+  });
+  test('needs its own clock', () => {
+    const gone = bareUsb({clock: false});
+    give(gone, FULL_PACKET);
+    assert.ok(sent(gone));
+    const there = strictUsb({clock: false});
+    assert.ok(!there.mcu.usbCtrl.attached);
+    assert.match(there.chip.sins.join(), /48 MHz/);
+    assert.ok(strictUsb().mcu.usbCtrl.attached);
+    assert.ok(!strictUsb({pullup: false}).mcu.usbCtrl.attached);
+  });
+  test('its memory takes nothing in reset', () => {
+    const gone = bare([]);
+    gone.mcu.writeUint32(SHARED, 1);
+    assert.equal(gone.mcu.readUint32(SHARED), 1);
+    const there = strict([]);
+    there.mcu.writeUint32(SHARED, 1);
+    assert.match(there.chip.sins.join(), /memory of the USB is in reset/);
+  });
+  test('sees AVAILABLE too early, if it comes with the rest', () => {
+    const gone = bareUsb();
+    gone.mcu.writeUint32(IN_CONTROL, FULL_PACKET | GIVEN);
+    assert.ok(sent(gone));
+    const there = strictUsb();
+    there.mcu.writeUint32(IN_CONTROL, FULL_PACKET | GIVEN);
+    there.mcu.usbCtrl.in(0, 2, 'bulk');
+    there.mcu.writeUint32(IN_CONTROL, FULL_PACKET | DATA1);
+    there.mcu.writeUint32(IN_CONTROL, FULL_PACKET | DATA1 | GIVEN);
+    assert.match(there.chip.sins[0], /with the rest/);
+    assert.match(there.chip.sins[1], /before the USB has seen/);
+  });
+  test('answers with STALL, and only to its address', () => {
+    const gone = bareUsb();
+    give(gone, FULL_PACKET | STALL);
+    assert.ok(sent(gone), 'the bare package sends the packet');
+    const there = strictUsb();
+    give(there, FULL_PACKET | STALL);
+    assert.deepEqual(there.mcu.usbCtrl.in(0, 2, 'bulk'), {stall: true});
+    assert.deepEqual(there.mcu.usbCtrl.in(7, 2, 'bulk'), {silent: true});
+    there.mcu.writeUint32(USB, 7);
+    assert.deepEqual(there.mcu.usbCtrl.in(7, 2, 'bulk'), {stall: true});
+  });
+  test('a reset of the bus, and a sleep, until the program has seen them', () => {
+    const there = strictUsb();
+    const pending = () => there.mcu.readUint32(USB + 0x98);
+    assert.equal(new RP2040().usbCtrl.suspend, undefined, 'the bare package never sleeps');
+    there.mcu.usbCtrl.busReset();
+    there.mcu.usbCtrl.suspend();
+    assert.equal(pending(), (1 << 12) | (1 << 14));
+    there.mcu.writeUint32(USB + 0x50, 1 << 19);
+    assert.equal(pending(), 1 << 14);
+  });
+});
+
+/** A device that answers a request for its descriptor: how, but for right. */
+function hostOf(answer) {
+  const chip = new Chip();
+  const host = chip.attach(new UsbHost({plugged: true}));
+  chip.powerOn();
+  chip.waitsForUsb = false;
+  chip.mcu.clkSys = 125e6;
+  put(chip.mcu, []);
+  withUsb(chip.mcu);
+  const {mcu} = chip;
+  const control = (offset, word) => {
+    mcu.writeUint32(SHARED + offset, word);
+    chip.run(chip.nanos + 200);
+    mcu.writeUint32(SHARED + offset, word | GIVEN);
+  };
+  const until = chip.nanos + 200e6;
+  while (chip.nanos < until && !host.complaints.length) {
+    chip.run(chip.nanos + 10000);
+    const pending = mcu.readUint32(USB + 0x98);
+    if (pending & (1 << 12)) mcu.writeUint32(USB + 0x50, 1 << 19);
+    if (!(pending & (1 << 16))) continue;
+    mcu.writeUint32(USB + 0x50, 1 << 17);
+    if (mcu.usbDPRAM[1] !== 6) break;
+    [18, 1, 0, 2, 0xef, 2, 1, 64].forEach((byte, i) => (mcu.usbDPRAM[0x100 + i] = byte));
+    control(0x80, answer);
+    control(0x84, DATA1);
+  }
+  assert.deepEqual(chip.sins, []);
+  return host.complaints.join();
+}
+
+describe('a strict USB host', () => {
+  test('complains of a wrong toggle, of too many bytes, and of too few', () => {
+    assert.equal(hostOf(0x8000 | DATA1 | 8), '');
+    assert.match(hostOf(0x8000 | 8), /DATA0 in its data/);
+    assert.match(hostOf(0x8000 | DATA1 | 18), /18 bytes in its data/);
+    assert.match(hostOf(0x8000 | DATA1 | 7), /no first bytes/);
+  });
+});
+
 describe('PIO', () => {
   // set x, 31; jmp x-- 1: counts down, one step each instruction.
   const set = (delay, enable, divider) => (mcu) => {
@@ -314,6 +456,21 @@ describe('the boot ROM', () => {
     assert.equal(chip.flash.bytes[0x1000], 0x03);
     chip.flash.erase(0x1000);
     assert.equal(chip.flash.bytes[0x1000], 0xff);
+  });
+  test('the flash tells its number, between commands', () => {
+    const bytes = (mcu) => {
+      for (let i = 0; i < 13; i++) mcu.writeUint32(0x18000060, i ? 0 : 0x4b);
+      return Array.from({length: 13}, () => mcu.readUint32(0x18000060)).slice(5);
+    };
+    assert.ok(
+      bytes(bare([]).mcu).every((byte) => byte === 0),
+      'the bare package has no such command',
+    );
+    const {chip, mcu} = strict([]);
+    mcu.writeUint32(0x18000008, 0);
+    mcu.writeUint32(0x18000000, 0x00070000);
+    mcu.writeUint32(0x18000008, 1);
+    assert.deepEqual(bytes(mcu), [...chip.flash.id]);
   });
   test('a power that fails cuts a page short', () => {
     const {chip} = strict([]);

@@ -10,7 +10,6 @@ target_sources(whisker_board PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/gyro.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
   ${CMAKE_CURRENT_LIST_DIR}/led.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/line.cpp
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
   ${CMAKE_CURRENT_LIST_DIR}/rangers.cpp
@@ -19,6 +18,11 @@ target_sources(whisker_board PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/startup.cpp
   ${CMAKE_CURRENT_LIST_DIR}/switches.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/uart_line.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/usb_control.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/usb_data.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/usb_line.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/usb_pipe.cpp
   ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp
   ${PROJECT_SOURCE_DIR}/hal/runtime/cortex_m/aeabi_memory.cpp)
 whisker_linker_script(hal/boards/pico/pico.ld)

@@ -16,9 +16,14 @@ constexpr uint32_t kStartUs = 10000;
 constexpr uint32_t kRangeTo15Mhz = 0xAA0;
 constexpr uint32_t kEnable = 0xFAB;
 constexpr uint32_t kStartUp = 47;  // units of 256 cycles of the crystal: 1 ms
-// 12 MHz times 125, divided by 6 and by 2.
-constexpr uint32_t kFeedback = 125;
-constexpr uint32_t kDivider1 = 6, kDivider2 = 2;
+/// 12 MHz times `feedback`, divided by both dividers.
+struct Pll {
+  Address base;
+  uint32_t feedback;
+  uint32_t divider1, divider2;
+};
+constexpr Pll kOfCore{base::kPllSys, 125, 6, 2};
+constexpr Pll kOfUsb{base::kPllUsb, 100, 5, 5};
 constexpr uint32_t kFromCrystal = 2;
 constexpr uint32_t kFromPll = 1;  // of the auxiliary sources, the PLL is the first
 constexpr uint32_t kCrystalMhz = 12;
@@ -27,6 +32,16 @@ bool selected(Register selected, uint32_t source, Patience& patience) noexcept {
   while ((load(base::kClocks, selected) >> source & 1U) == 0) {
     if (!patience.spend()) return false;
   }
+  return true;
+}
+
+bool started(const Pll& pll, Patience& patience) noexcept {
+  store(pll.base, pll::kCs, 1);
+  store(pll.base, pll::kFbdivInt, pll.feedback);
+  clear_bits(pll.base, pll::kPwr, mask(pll::kPd) | mask(pll::kVcopd));
+  if (!patience.until(pll.base, pll::kLock, true)) return false;
+  store(pll.base, pll::kPrim, bits(pll::kPostdiv1, pll.divider1) | bits(pll::kPostdiv2, pll.divider2));
+  clear_bits(pll.base, pll::kPwr, mask(pll::kPostdivpd));
   return true;
 }
 
@@ -40,17 +55,19 @@ bool start_clocks() noexcept {
   store(base::kClocks, clocks::kClkRefCtrl, kFromCrystal);
   if (!selected(clocks::kClkRefSelected, kFromCrystal, patience)) return false;
 
-  store(base::kPllSys, pll::kCs, 1);
-  store(base::kPllSys, pll::kFbdivInt, kFeedback);
-  clear_bits(base::kPllSys, pll::kPwr, mask(pll::kPd) | mask(pll::kVcopd));
-  if (!patience.until(base::kPllSys, pll::kLock, true)) return false;
-  store(base::kPllSys, pll::kPrim, bits(pll::kPostdiv1, kDivider1) | bits(pll::kPostdiv2, kDivider2));
-  clear_bits(base::kPllSys, pll::kPwr, mask(pll::kPostdivpd));
+  if (!started(kOfCore, patience)) return false;
   store(base::kClocks, clocks::kClkSysCtrl, kFromPll);
   if (!selected(clocks::kClkSysSelected, kFromPll, patience)) return false;
 
   store(base::kClocks, clocks::kClkPeriCtrl, mask(clocks::kClkPeriEnable));
   store(base::kWatchdog, watchdog::kTick, mask(watchdog::kTickEnable) | bits(watchdog::kCycles, kCrystalMhz));
+  return true;
+}
+
+bool start_usb_clock() noexcept {
+  Patience patience = Patience::for_us(kStartUs, kCoreHz);
+  if (!started(kOfUsb, patience)) return false;
+  store(base::kClocks, clocks::kClkUsbCtrl, mask(clocks::kClkUsbEnable));
   return true;
 }
 

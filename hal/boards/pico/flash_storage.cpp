@@ -1,6 +1,7 @@
 #include "hal/boards/pico/flash_storage.hpp"
 
 #include "hal/boards/pico/interrupts.hpp"
+#include "hal/boards/pico/reg/ssi.hpp"
 
 /// Of the linker script: address 0.
 extern "C" const uint8_t __boot_rom[];
@@ -16,6 +17,10 @@ constexpr uint32_t kBoot2Words = 64;
 constexpr uint32_t kErasureMs = 2000;
 constexpr uint32_t kBlockBytes = 65536;
 constexpr uint8_t kEraseBlock = 0xD8;
+// W25Q16JV data sheet, 8.2.35: four bytes of pause, then the number.
+constexpr uint8_t kReadId = 0x4B;
+constexpr uint8_t kBeforeId = 5;
+constexpr uint32_t kBytePolls = 1000;
 
 constexpr bool inside(uint8_t slot, uint16_t at, uint16_t size) noexcept {
   return slot < Storage::kSlots && at <= FlashStorage::kSize && size <= FlashStorage::kSize - at;
@@ -60,18 +65,34 @@ Rom rom() noexcept {
   return rom;
 }
 
-/// What is done to the flash while it cannot be read: null `data` erases.
+/// What is done to the flash while it cannot be read: `id` is read, or `data` written; without both, it is
+/// erased.
 struct Work {
   uint32_t at;
   const uint8_t* data;
+  uint8_t* id;
 };
+
+/// All bytes fit into the queues of the interface, so that the flash stays selected from the first to the
+/// last.
+[[gnu::always_inline]] inline void ask_id(uint8_t* id) noexcept {
+  constexpr uint8_t kAll = kBeforeId + FlashStorage::kIdBytes;
+  for (uint8_t i = 0; i < kAll; ++i) store(base::kSsi, ssi::kDr0, i == 0 ? kReadId : 0);
+  for (uint8_t i = 0; i < kAll; ++i) {
+    for (uint32_t polls = kBytePolls; polls > 0 && !is_set(base::kSsi, ssi::kRfne);) --polls;
+    const uint32_t byte = load(base::kSsi, ssi::kDr0);
+    if (i >= kBeforeId) id[i - kBeforeId] = static_cast<uint8_t>(byte);
+  }
+}
 
 /// Runs in the RAM, as does the copy of the second-stage bootloader that makes the flash readable again.
 [[gnu::section(".ram_code"), gnu::noinline]] void work_on_flash(const Rom& rom, const Work& work,
                                                                 void (*make_readable)()) noexcept {
   rom.connect();
   rom.exit_reads();
-  if (work.data == nullptr) {
+  if (work.id != nullptr) {
+    ask_id(work.id);
+  } else if (work.data == nullptr) {
     rom.erase(work.at, FlashStorage::kSize, kBlockBytes, kEraseBlock);
   } else {
     rom.program(work.at, work.data, kPageBytes);
@@ -91,6 +112,8 @@ void do_work(const Work& work) noexcept {
 
 }  // namespace
 
+void FlashStorage::read_id(uint8_t (&id)[kIdBytes]) noexcept { do_work({0, nullptr, id}); }
+
 bool FlashStorage::read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) noexcept {
   if (!inside(slot, at, size)) return false;
   const auto* from = reinterpret_cast<const volatile uint8_t*>(kFlash + place(use_, slot, at));
@@ -101,7 +124,7 @@ bool FlashStorage::read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) 
 bool FlashStorage::erase(uint8_t slot) noexcept {
   if (!inside(slot, 0, 0)) return false;
   if (watchdog_ms_ != 0) watchdog_.start(kErasureMs);
-  do_work({place(use_, slot, 0), nullptr});
+  do_work({place(use_, slot, 0), nullptr, nullptr});
   if (watchdog_ms_ != 0) watchdog_.start(watchdog_ms_);
   return true;
 }
@@ -115,7 +138,7 @@ bool FlashStorage::write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_
     const uint32_t to = place(use_, slot, static_cast<uint16_t>(at + done));
     for (uint32_t i = to % kPageBytes; i < kPageBytes && done < size; ++i) page[i] = data[done++];
     if (watchdog_ms_ != 0) watchdog_.feed();
-    do_work({to - to % kPageBytes, page});
+    do_work({to - to % kPageBytes, page, nullptr});
   }
   return true;
 }

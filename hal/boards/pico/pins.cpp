@@ -36,7 +36,8 @@ void make_output(Gpio pin, bool high) noexcept {
 bool wake_peripherals() noexcept {
   constexpr uint32_t kUsed = mask(resets::kIoBank0) | mask(resets::kPadsBank0) | mask(resets::kTimer) |
                              mask(resets::kUart0) | mask(resets::kI2c0) | mask(resets::kPwm) |
-                             mask(resets::kPio0) | mask(resets::kPllSys);
+                             mask(resets::kPio0) | mask(resets::kPllSys) | mask(resets::kPllUsb) |
+                             mask(resets::kUsbctrl);
   clear_bits(base::kResets, resets::kReset, kUsed);
   for (Patience patience(kWakePolls); (load(base::kResets, resets::kResetDone) & kUsed) != kUsed;) {
     if (!patience.spend()) return false;

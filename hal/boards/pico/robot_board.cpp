@@ -37,9 +37,20 @@ bool RobotBoard::start() noexcept {
   interrupted = this;
   ticker_.start();
   line_.start();
+  start_usb();
   encoders_.start();
   sensors_.start(ticker_.now_ms());
   return true;
+}
+
+void RobotBoard::start_usb() noexcept {
+  if (!start_usb_clock()) {
+    troubles_.count(Trouble::usb_no_clock);
+    return;
+  }
+  uint8_t id[FlashStorage::kIdBytes];
+  FlashStorage::read_id(id);
+  usb_.start(id);
 }
 
 void RobotBoard::refuse() noexcept {
@@ -73,6 +84,7 @@ void RobotBoard::poll() noexcept {
   sensors_.collect(troubles_);
   encoders_.collect(troubles_);
   troubles_.count(Trouble::line_bytes_lost, line_.collect_lost());
+  troubles_.count(Trouble::usb_not_read, usb_.collect_refused());
 }
 
 bool RobotBoard::due(uint32_t period_ms) noexcept {
@@ -102,11 +114,13 @@ void RobotBoard::on_millisecond() noexcept {
 extern "C" {
 
 void millisecond_interrupt() noexcept;
+void usb_interrupt() noexcept;
 void line_interrupt() noexcept;
 void bus_interrupt() noexcept;
 void edge_interrupt() noexcept;
 
 void millisecond_interrupt() noexcept { whisker::hal::pico::interrupted->on_millisecond(); }
+void usb_interrupt() noexcept { whisker::hal::pico::interrupted->on_usb_interrupt(); }
 void line_interrupt() noexcept { whisker::hal::pico::interrupted->on_line_interrupt(); }
 void bus_interrupt() noexcept { whisker::hal::pico::interrupted->on_bus_interrupt(); }
 void edge_interrupt() noexcept { whisker::hal::pico::interrupted->on_edge_interrupt(); }

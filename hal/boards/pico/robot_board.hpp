@@ -6,12 +6,13 @@
 #include "hal/boards/pico/encoders.hpp"
 #include "hal/boards/pico/flash_storage.hpp"
 #include "hal/boards/pico/led.hpp"
-#include "hal/boards/pico/line.hpp"
 #include "hal/boards/pico/motors.hpp"
 #include "hal/boards/pico/robot_params.hpp"
 #include "hal/boards/pico/sensor_bus.hpp"
 #include "hal/boards/pico/switches.hpp"
 #include "hal/boards/pico/ticker.hpp"
+#include "hal/boards/pico/uart_line.hpp"
+#include "hal/boards/pico/usb_line.hpp"
 
 namespace whisker::hal::pico {
 
@@ -56,16 +57,20 @@ class RobotBoard {
   Bumper& bumper() noexcept { return bumper_; }
   hal::Button& button() noexcept { return button_; }
   ByteLine& line() noexcept { return line_; }
+  ByteLine& usb() noexcept { return usb_; }
   Led& led() noexcept { return led_; }
   Storage& storage(FlashUse use) noexcept { return storage_[static_cast<uint8_t>(use)]; }
   const Troubles& troubles() const noexcept { return troubles_; }
 
   void on_millisecond() noexcept;
+  void on_usb_interrupt() noexcept { usb_.on_interrupt(); }
   void on_line_interrupt() noexcept { line_.on_interrupt(); }
   void on_bus_interrupt() noexcept { sensors_.on_interrupt(); }
   void on_edge_interrupt() noexcept { echoes_.on_interrupt(); }
 
  private:
+  void start_usb() noexcept;
+
   /// The rangefinders that the parameters say are fitted.
   class FittedRangers final : public Rangefinders {
    public:
@@ -79,7 +84,8 @@ class RobotBoard {
 
   Troubles troubles_;
   Ticker ticker_;
-  Line line_;
+  UartLine line_;
+  UsbLine usb_;
   SensorBus sensors_;
   EchoLines echoes_;
   FittedRangers fitted_{sensors_.rangers()};

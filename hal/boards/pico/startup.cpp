@@ -15,6 +15,7 @@ extern const uint8_t __image_end[];
 
 [[noreturn]] void reset() noexcept;
 void millisecond_interrupt() noexcept;
+void usb_interrupt() noexcept;
 void line_interrupt() noexcept;
 void bus_interrupt() noexcept;
 void edge_interrupt() noexcept;
@@ -48,6 +49,7 @@ constexpr Vectors vectors() noexcept {
   for (Handler& handler : v.interrupt) handler = stand_still;
   v.exception[0] = reset;
   v.interrupt[static_cast<int>(Interrupt::timer0)] = millisecond_interrupt;
+  v.interrupt[static_cast<int>(Interrupt::usb)] = usb_interrupt;
   v.interrupt[static_cast<int>(Interrupt::io_bank0)] = edge_interrupt;
   v.interrupt[static_cast<int>(Interrupt::uart0)] = line_interrupt;
   v.interrupt[static_cast<int>(Interrupt::i2c0)] = bus_interrupt;

@@ -63,13 +63,10 @@ void Overheard::on_frame(MessageKind kind, const hal::CanFrame& frame) {
     case MessageKind::range_left: return on_range<MessageKind::range_left>(hal::kLeft, frame);
     case MessageKind::range_front: return on_range<MessageKind::range_front>(hal::kFront, frame);
     case MessageKind::range_right: return on_range<MessageKind::range_right>(hal::kRight, frame);
-    case MessageKind::wheel_state:
-      return with<can::WheelState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
-    case MessageKind::gyro:
-      return with<can::GyroState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
-    case MessageKind::fix:
-      return with<can::FixValue>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
-    case MessageKind::sync: return with<can::Sync>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+    case MessageKind::wheel_state: return with<can::WheelState>(frame, [&](const auto& m) { on_set(m); });
+    case MessageKind::gyro: return with<can::GyroState>(frame, [&](const auto& m) { on_set(m); });
+    case MessageKind::fix: return with<can::FixValue>(frame, [&](const auto& m) { on_set(m); });
+    case MessageKind::sync: return with<can::Sync>(frame, [&](const auto& m) { on_set(m); });
     case MessageKind::mission_reply:
       return with<can::MissionReply>(frame, [&](const auto& m) { on_reply(m); });
     case MessageKind::param_reply: return with<can::ParamReply>(frame, [&](const auto& m) { on_reply(m); });
@@ -95,28 +92,40 @@ void Overheard::on_request(Requests& from, MessageKind kind, const hal::CanFrame
 }
 
 const can::InputSet* Overheard::set_of(std::uint16_t tick16) const {
-  const auto& set = kept_[tick16 % kKept];
+  const auto& set = sets_.kept[tick16 % kKept];
   return set && static_cast<std::uint16_t>(set->tick) == tick16 ? &*set : nullptr;
 }
 
 template <MessageKind kKind>
 void Overheard::on_range(int beam, const hal::CanFrame& frame) {
   with<can::Range<kKind>>(frame, [&](auto m) {
-    if (can::InputSets::sound(m.reading)) sets_.on_frame(beam, m.reading, m.tick, m.bump), keep();
+    if (can::InputSets::sound(m.reading)) on_set(beam, m.reading, m.tick, m.bump);
   });
 }
 
-void Overheard::keep() {
-  if (!sets_.complete()) return;
-  const can::InputSet set = sets_.set();
-  kept_[set.tick % kKept] = set;
+template <class... M>
+void Overheard::Sets::on_frame(const M&... of_frame) {
+  frames.on_frame(of_frame...);
+  if (!frames.complete()) return;
+  const can::InputSet set = frames.set();
+  kept[set.tick % kKept] = set;
+}
+
+template <class... M>
+void Overheard::on_set(const M&... of_frame) {
+  sets_.on_frame(of_frame...);
+  since_order_.on_frame(of_frame...);
 }
 
 void Overheard::on_mission(Requests& from, const hal::CanFrame& frame) {
   can::MissionValue part;
   if (!can::decode(frame, part)) return;
   if (part.part != can::MissionPart::order) return from.parts.on_frame(part);
-  with<can::MissionOrder>(frame, [&](const auto& m) { from.order = m; });
+  with<can::MissionOrder>(frame, [&](const auto& m) {
+    const bool again = from.order && from.order->mission == m.mission;
+    if (&from == &base_ && !again) since_order_ = {};
+    from.order = m;
+  });
 }
 
 void Overheard::on_reply(const can::MissionReply& reply) {
@@ -128,9 +137,7 @@ void Overheard::on_reply(const can::MissionReply& reply) {
   to.accepted = reply.mission;
   const bool of_base = reply.to_operator == 0;
   accepted_(of_base ? can::Requester::base : can::Requester::third_party, to.order->order, mission);
-  if (!of_base) return;
-  for (auto& set : kept_) set.reset();
-  sets_.forget();
+  if (of_base) sets_ = since_order_;
 }
 
 void Overheard::on_reply(const can::ParamReply& reply) {

@@ -84,11 +84,21 @@ class Overheard {
   void on_mission(Requests& from, const hal::CanFrame& frame);
   void on_reply(const can::MissionReply& reply);
   void on_reply(const can::ParamReply& reply);
-  void keep();
+  /// The frames of input sets, and the sets that they complete.
+  struct Sets {
+    can::InputSets frames;
+    std::array<std::optional<can::InputSet>, kKept> kept;
+    template <class... M>
+    void on_frame(const M&... of_frame);
+  };
+  template <class... M>
+  void on_set(const M&... of_frame);
 
   const Accepted accepted_;
-  can::InputSets sets_;
-  std::array<std::optional<can::InputSet>, kKept> kept_;
+  Sets sets_;
+  /// Since the base's last order. The controller forgets the sets before it as soon as it has taken it; its
+  /// reply may come behind a set that it has received afterwards.
+  Sets since_order_;
   Requests base_, operator_;
   std::uint64_t operator_us_ = 0;  // of its last frame
   can::ParamServer server_;

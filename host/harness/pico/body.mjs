@@ -2,6 +2,7 @@
 import {HcSr04} from './hcsr04.mjs';
 import {I2cBus} from './i2c.mjs';
 import {Mpu6050} from './mpu6050.mjs';
+import {UsbHost} from './usb_host.mjs';
 import {Vl53l0x} from './vl53l0x.mjs';
 
 export const PINS = {
@@ -102,9 +103,13 @@ export class Quadrature {
 }
 
 export class Body {
-  /** sonar: three HC-SR04 instead of three VL53L0X. */
-  constructor(chip, sonar = false) {
+  /** sonar: three HC-SR04 instead of three VL53L0X. usb: its cable is that of the USB socket. */
+  constructor(chip, {sonar = false, usb = false} = {}) {
     this.chip = chip;
+    this.cable = !usb;
+    this.usb = chip.attach(new UsbHost({plugged: usb}));
+    this.usb.onByte = (byte) => this.sent.push(byte);
+    this.byUsb = usb;
     this.bus = chip.attach(new I2cBus(chip, 0, {data: PINS.data, clock: PINS.clock}));
     this.rangers = PINS.awake.map((pin, beam) =>
       chip.attach(sonar ? new HcSr04(chip, pin, PINS.echoes[beam]) : new Vl53l0x(chip, pin)),
@@ -127,7 +132,7 @@ export class Body {
     this.mcu = mcu;
     for (const pin of [PINS.button, ...PINS.bumpers]) mcu.gpio[pin].setInputValue(true);
     mcu.uart[0].onByte = (byte) => this.sent.push(byte);
-    mcu.uart[0].connected = this.cable ?? true;
+    mcu.uart[0].connected = this.cable;
     mcu.gpio[1].setInputValue(true);
     this.led = false;
     mcu.gpio[PINS.led].addListener((value) => (this.led = value === 1));
@@ -147,8 +152,13 @@ export class Body {
     this.mcu.gpio[PINS.bumpers[side]].setInputValue(!closed);
   }
   connect(on) {
+    if (this.byUsb) return this.usb.connect(on);
     this.cable = on;
     this.mcu.uart[0].connected = on;
+  }
+  /** Over its cable. */
+  tell(bytes) {
+    (this.byUsb ? this.usb : this.mcu.uart[0]).feed(bytes);
   }
   /** Of the last millisecond: what the simulator needs. */
   line() {
@@ -175,6 +185,6 @@ export class Body {
     });
     this.gyro.pass(Number(words[12]), Number(words[13]));
     const hex = words.at(-1);
-    if (hex !== '-') this.mcu.uart[0].feed(hex.match(/../g).map((pair) => parseInt(pair, 16)));
+    if (hex !== '-') this.tell(hex.match(/../g).map((pair) => parseInt(pair, 16)));
   }
 }

@@ -3,8 +3,10 @@ import {RP2040} from 'rp2040js';
 import {Flash, plugFlash} from './flash.mjs';
 import * as strict from './strict.mjs';
 import {Uart} from './uart.mjs';
+import {UsbController} from './usb.mjs';
 
 const UART0_IRQ = 20;
+const USB_IRQ = 5;
 /** Of PSM.WDSEL, without the oscillators. */
 const ALL_STAGES = 0x1fffc;
 const SILENT = {debug() {}, info() {}, warn() {}, error() {}};
@@ -32,6 +34,8 @@ export class Chip {
   resets = [];
   lockup = false;
   crystalDead = false;
+  /** The PLL of the USB never locks. */
+  usbClockDead = false;
   /** Of the flash's cache, if they are counted. */
   misses = 0;
   countsMisses = false;
@@ -42,7 +46,7 @@ export class Chip {
   #reset = null;
 
   constructor({seed = 1} = {}) {
-    this.flash = new Flash();
+    this.flash = new Flash(seed);
     this.flash.onPowerLost = () => this.losePower();
     this.seed = seed;
   }
@@ -75,6 +79,7 @@ export class Chip {
     strict.repairDivider(mcu);
     strict.rememberPins(mcu);
     mcu.uart[0] = mcu.peripherals[0x40034] = new Uart(mcu, UART0_IRQ, this);
+    mcu.usbCtrl = mcu.peripherals[0x50110] = new UsbController(mcu, USB_IRQ, this);
     this.seed = (Math.imul(this.seed, 69069) + 1) >>> 0;
     mcu.peripherals[0x40060] = new RingOscillator(this.seed);
     strict.repairSleep(mcu);

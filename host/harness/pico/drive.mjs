@@ -25,13 +25,13 @@ export class Drive {
   };
   /**
    * rig: asked once a millisecond, as host/harness/pico/rig.hpp says. uf2: what is flashed. sonar: HC-SR04 instead of
-   * VL53L0X. prepare(chip): before the power comes.
+   * VL53L0X. usb: the simulator talks to the USB socket instead of the UART. prepare(chip): before the power comes.
    */
-  constructor(rig, uf2, {sonar = false, seed = 1, prepare = () => {}} = {}) {
+  constructor(rig, uf2, {sonar = false, usb = false, seed = 1, prepare = () => {}} = {}) {
     this.rig = rig;
     this.chip = new Chip({seed});
     this.chip.flash.load(uf2);
-    this.body = new Body(this.chip, sonar);
+    this.body = new Body(this.chip, {sonar, usb});
     prepare(this.chip);
     this.chip.powerOn();
   }

@@ -52,6 +52,9 @@ export class Flash {
   powerFor = Infinity;
   onPowerLost = () => {};
 
+  constructor(number = 1) {
+    this.id = Uint8Array.of(0xe6, 0x60, 0x58, 0x38, number >> 24, number >> 16, number >> 8, number);
+  }
   load(uf2) {
     for (const {address, bytes} of blocksOf(uf2)) this.bytes.set(bytes, address - FLASH);
   }
@@ -133,6 +136,8 @@ class Ssi {
     if (first && command === 0x06) this.#writable = true;
     if (first) return 0;
     if (command === 0x05) return this.#writable ? 2 : 0;
+    // Four bytes of pause, then the number of the chip.
+    if (command === 0x4b && this.#command.length > 5) return this.flash.id[this.#command.length - 6] ?? 0;
     if (command === 0x35) return this.flash.quad ? 2 : 0;
     if (command === 0x31 && this.#command.length === 2 && this.#writable) {
       this.flash.quad = (data & 2) !== 0;
@@ -172,9 +177,15 @@ class Ssi {
     ])
       this.writeUint32Atomic(offset, value, 0);
   }
+  /** And then frames of 8 bits, both ways. */
   exitReads() {
     this.#continuous = false;
-    this.switchReads(false);
+    for (const [offset, value] of [
+      [0x08, 0],
+      [0x00, 0x00070000],
+    ])
+      this.writeUint32Atomic(offset, value, 0);
+    this.#registers.set(0x08, 1);
   }
 }
 

@@ -1,8 +1,8 @@
 // usage: node host/harness/pico/live.mjs WORLD [ROBOT]
 //
-// The robot in a world, in real time. Its cable is file descriptor 3, which does not block; scripts/pico opens it. Lines of
-// standard input: `button` or `hold` presses the button, briefly or for 1.5 s; `hand N` holds a hand before sensor 0, 1 or 2,
-// `hand` takes it away; `wheel N COUNTS` turns wheel 0 or 1 forward by hand.
+// The robot in a world, in real time. The port of its USB cable is file descriptor 3, which does not block; scripts/pico opens
+// it. Lines of standard input: `button` or `hold` presses the button, briefly or for 1.5 s; `hand N` holds a hand before
+// sensor 0, 1 or 2, `hand` takes it away; `wheel N COUNTS` turns wheel 0 or 1 forward by hand.
 import {readSync, writeSync} from 'node:fs';
 import {createInterface} from 'node:readline';
 import {join} from 'node:path';
@@ -24,6 +24,7 @@ for (const signal of ['SIGINT', 'SIGTERM'])
   });
 const drive = driveOf([world, '--robot', robot, '--listen'], {
   seed: Date.now() & 0xffffffff,
+  usb: true,
 });
 const buffer = Buffer.alloc(4096);
 
@@ -71,7 +72,7 @@ function slice() {
   // On a computer that is too slow, the robot's time is longer.
   const behind = Date.now() - began - lost - drive.ms;
   if (behind > LONGEST_MS) lost += behind - LONGEST_MS;
-  drive.body.mcu.uart[0].feed(read());
+  drive.body.tell(read());
   for (const due = Date.now() - began - lost; drive.ms < due;) {
     if (drive.ms >= releaseAt) {
       drive.body.press(false);

@@ -1,4 +1,4 @@
-// usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses]
+// usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses] [--usb]
 //
 // The image of the Raspberry Pi Pico drives the simulated robot through a world. Needs build/pico/whisker.uf2 and
 // build/host.
@@ -15,17 +15,19 @@ const take = (name, otherwise) => {
 const limit = Number(take('--limit', 600));
 const robot = take('--robot', join(ROOT, 'host/robots/pico.toml'));
 const seed = take('--seed');
-const countsMisses = args.includes('--misses');
-if (countsMisses) args.splice(args.indexOf('--misses'), 1);
+const has = (name) => args.includes(name) && args.splice(args.indexOf(name), 1).length > 0;
+const countsMisses = has('--misses');
+const usb = has('--usb');
 if (args.length !== 1) {
   console.error(
-    'usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses]',
+    'usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses] [--usb]',
   );
   process.exit(2);
 }
 const began = process.hrtime.bigint();
 const drive = driveOf([args[0], '--robot', robot, ...(seed === undefined ? [] : ['--seed', seed])], {
   prepare: (chip) => (chip.countsMisses = countsMisses),
+  usb,
 });
 let running = false;
 drive.until(limit * 1000, (now) => {
@@ -58,7 +60,7 @@ const figures = {
   stack_bytes: drive.stack,
   resets: chip.resets.length - 1,
   faults: chip.faults,
-  sins: chip.sins,
+  sins: [...chip.sins, ...body.usb.complaints],
   simulated_s_a_second: Number((verdict.time_s / seconds).toFixed(2)),
 };
 for (const [name, value] of Object.entries(figures))
@@ -67,6 +69,6 @@ const good =
   verdict.outcome === 'reached' &&
   !verdict.contact &&
   verdict.difference === '' &&
-  !chip.sins.length &&
+  !figures.sins.length &&
   !chip.faults.length;
 process.exit(good ? 0 : 1);

@@ -165,7 +165,8 @@ export function gateClocks(mcu, chip) {
     pll.writeUint32 = (offset, value) => {
       write(offset, value);
       const powered = !(pll.pwr & 0x21);
-      if (powered && pll.lockedAt === Infinity) pll.lockedAt = clock.nanos + LOCK_NS;
+      if (powered && pll.lockedAt === Infinity && !(pll === mcu.pllUsb && chip.usbClockDead))
+        pll.lockedAt = clock.nanos + LOCK_NS;
       if (!powered) pll.lockedAt = Infinity;
     };
     const read = pll.readUint32.bind(pll);

@@ -1,9 +1,9 @@
-/// PLL of the system clock.
+/// PLLs of the system clock and of the USB.
 #pragma once
 
 #include "hal/boards/pico/io.hpp"
 
-namespace whisker::hal::pico::pll {  // PLL_SYS
+namespace whisker::hal::pico::pll {  // PLL_SYS PLL_USB
 
 inline constexpr Register kCs{0x000};            ///< CS
 inline constexpr Field kLock{0x000, 31, 1};      ///< CS.LOCK

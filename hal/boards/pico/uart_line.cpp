@@ -1,4 +1,4 @@
-#include "hal/boards/pico/line.hpp"
+#include "hal/boards/pico/uart_line.hpp"
 
 #include "hal/boards/pico/clock.hpp"
 #include "hal/boards/pico/interrupts.hpp"
@@ -7,7 +7,8 @@
 namespace whisker::hal::pico {
 namespace {
 
-constexpr uint32_t kSixtyFourths = (kCoreHz * 4 + Line::kBaud / 2) / Line::kBaud;  // of a sixteenth of a bit
+constexpr uint32_t kSixtyFourths =
+    (kCoreHz * 4 + UartLine::kBaud / 2) / UartLine::kBaud;  // of a sixteenth of a bit
 constexpr uint32_t kEightBits = 3;
 constexpr uint32_t kWhenHalfFull = 2;
 constexpr uint32_t kWhenNearlyEmpty = 0;
@@ -17,7 +18,7 @@ constexpr uint32_t kReceives = mask(uart::kRxim) | mask(uart::kRtim) | mask(uart
 
 }  // namespace
 
-void Line::start() noexcept {
+void UartLine::start() noexcept {
   store(base::kUart0, uart::kUartibrd, kSixtyFourths / 64);
   store(base::kUart0, uart::kUartfbrd, kSixtyFourths % 64);
   store(base::kUart0, uart::kUartlcrH, bits(uart::kWlen, kEightBits) | mask(uart::kFen));
@@ -28,13 +29,13 @@ void Line::start() noexcept {
   enable(Interrupt::uart0);
 }
 
-size_t Line::take(uint8_t* to, size_t room) noexcept {
+size_t UartLine::take(uint8_t* to, size_t room) noexcept {
   size_t taken = 0;
   while (taken < room && received_.pop(to[taken])) ++taken;
   return taken;
 }
 
-size_t Line::offer(const uint8_t* from, size_t count) noexcept {
+size_t UartLine::offer(const uint8_t* from, size_t count) noexcept {
   size_t put = 0;
   for (; put < count; ++put) {
     const uint16_t head = out_head_;
@@ -49,7 +50,7 @@ size_t Line::offer(const uint8_t* from, size_t count) noexcept {
   return put;
 }
 
-void Line::fill() noexcept {
+void UartLine::fill() noexcept {
   while (out_tail_ != out_head_ && !is_set(base::kUart0, uart::kTxff)) {
     const uint16_t tail = out_tail_;
     store(base::kUart0, uart::kUartdr, out_[tail % kOutDepth]);
@@ -58,7 +59,7 @@ void Line::fill() noexcept {
   if (out_tail_ != out_head_) set_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
 }
 
-void Line::on_interrupt() noexcept {
+void UartLine::on_interrupt() noexcept {
   const uint32_t why = load(base::kUart0, uart::kUartmis);
   store(base::kUart0, uart::kUarticr, why);
   if ((why & mask(uart::kOeim)) != 0) lost_.happened();

@@ -8,7 +8,7 @@
 namespace whisker::hal::pico {
 
 /// UART0: 8 data bits, no parity, 1 stop bit. No call waits: an interrupt moves the bytes.
-class Line final : public ByteLine {
+class UartLine final : public ByteLine {
  public:
   /// A robot says about 33 KB a second.
   static constexpr uint32_t kBaud = 921600;
