@@ -118,6 +118,17 @@ template <int kBits>
   static_assert(kBits > 0 && kBits <= 32);
   return narrow<uint32_t>((product(a, b) + (UINT64_C(1) << (kBits - 1))) >> kBits);
 }
+/// The same by products of 16 bits. a, b < 2^31.
+template <int kBits>
+[[gnu::always_inline]] constexpr uint32_t scaled_product_by_parts(uint32_t a, uint32_t b) noexcept {
+  static_assert(kBits > 16 && kBits <= 32);
+  WHISKER_ASSERT(a <= INT32_MAX && b <= INT32_MAX);
+  const uint32_t a_low = a & UINT16_MAX, a_high = a >> 16, b_low = b & UINT16_MAX, b_high = b >> 16;
+  // What the lowest 16 bits of the product hold reaches no bit of the result.
+  const uint32_t middle = a_high * b_low + a_low * b_high + (a_low * b_low >> 16);
+  const uint32_t high = a_high * b_high;
+  return (high << (32 - kBits)) + ((middle + (UINT32_C(1) << (kBits - 17))) >> (kBits - 16));
+}
 
 /// a * b / c to nearest, saturating. c > 0.
 constexpr int32_t multiply_divide(int32_t a, int32_t b, int32_t c) noexcept {
@@ -178,6 +189,9 @@ constexpr int16_t q14(Q30 x) noexcept { return narrow<int16_t>(scale_down<16>(x.
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
 static_assert(scaled_product<4>(3, 8) == 2 && scaled_product<4>(23, 1) == 1);
+static_assert(scaled_product_by_parts<30>(INT32_MAX, UINT32_C(1) << 30) == INT32_MAX);
+static_assert(scaled_product_by_parts<30>(1686629674, 1073741823) ==
+              scaled_product<30>(1686629674, 1073741823));
 static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);
 static_assert(scale_down<4>(INT32_C(24)) == 2 && scale_down<4>(INT32_C(-24)) == -2);
 

@@ -9,6 +9,6 @@ uint32_t square_root_32(uint32_t x) noexcept { return formula::square_root_32(x)
 Length norm(Vec v) noexcept { return formula::norm(v); }
 bool farther(Vec v, Length length) noexcept { return formula::farther(v, length); }
 Vec polar(Angle direction, Length length) noexcept { return formula::polar(direction, length); }
-Length along(Vec v, Angle direction) noexcept { return formula::along(v, direction); }
+Length along(Vec v, Facing direction) noexcept { return formula::along(v, direction); }
 
 }  // namespace whisker::at_run_time

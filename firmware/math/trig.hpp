@@ -39,11 +39,21 @@ constexpr Vec polar(Angle direction, Length length) noexcept;
 /// The component of v in this direction.
 constexpr Length along(const Vec& v, Angle direction) noexcept;
 
+/// A direction by its sines, for those who ask more than once.
+struct Facing {
+  Q30 cos = Q30::from_raw(Q30::kOne);
+  Q30 sin;
+};
+constexpr Facing facing(Angle direction) noexcept;
+constexpr Vec polar(Facing direction, Length length) noexcept;
+constexpr Length along(const Vec& v, Facing direction) noexcept;
+
 /// The component of v to the right of this direction: how far a line in this direction through the point v
 /// passes to the left of the origin, with the opposite sign.
-constexpr Length across(const Vec& v, Angle direction) noexcept {
-  return v.x * sin(direction) - v.y * cos(direction);
+constexpr Length across(const Vec& v, Facing direction) noexcept {
+  return v.x * direction.sin - v.y * direction.cos;
 }
+constexpr Length across(const Vec& v, Angle direction) noexcept;
 
 /// The angle whose sine is part / whole; |part| <= whole.
 constexpr Angle arc_sine(Length part, Length whole) noexcept {

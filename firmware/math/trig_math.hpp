@@ -15,7 +15,7 @@ uint32_t square_root_32(uint32_t x) noexcept;
 Length norm(Vec v) noexcept;
 bool farther(Vec v, Length length) noexcept;
 Vec polar(Angle direction, Length length) noexcept;
-Length along(Vec v, Angle direction) noexcept;
+Length along(Vec v, Facing direction) noexcept;
 }  // namespace at_run_time
 
 namespace formula {
@@ -25,14 +25,18 @@ constexpr uint32_t kSine[] = {1686629674, 693597876, 85564854, 5016767, 161942};
 constexpr uint32_t kArcTangent[] = {683565198, 227850059, 136616721, 96801258, 71767194,
                                     49455063,  27193166,  9844330,   1679347};
 
+[[gnu::always_inline]] constexpr uint32_t product_q30(uint32_t a, uint32_t b) noexcept {
+  return kMultipliesByParts ? scaled_product_by_parts<30>(a, b) : scaled_product<30>(a, b);
+}
+
 /// c[0] x - c[1] x^3 + c[2] x^5 - ... for x in [0, 1] as Q30, in the unit of the coefficients, which fall: so
 /// no sum is negative.
 template <size_t kTerms>
 constexpr int32_t odd_polynomial(const uint32_t (&c)[kTerms], uint32_t x_q30) noexcept {
-  const uint32_t square = scaled_product<30>(x_q30, x_q30);
+  const uint32_t square = product_q30(x_q30, x_q30);
   uint32_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - scaled_product<30>(sum, square);
-  return static_cast<int32_t>(scaled_product<30>(sum, x_q30));
+  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - product_q30(sum, square);
+  return static_cast<int32_t>(product_q30(sum, x_q30));
 }
 
 [[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
@@ -74,19 +78,46 @@ struct FirstRoots {
 };
 constexpr FirstRoots kFirstRoots;
 
+/// Their reciprocals, 2^-8, less 1.
+struct Reciprocals {
+  uint8_t of[192] = {};
+
+  constexpr Reciprocals() noexcept {
+    for (uint32_t i = 0; i < sizeof of; ++i) {
+      const uint32_t root = 256U + kFirstRoots.of[i];
+      of[i] = static_cast<uint8_t>((UINT16_MAX + root / 2) / root - 1);
+    }
+  }
+};
+constexpr Reciprocals kReciprocals;
+
 struct RootAndRest {
   uint32_t root;
   uint32_t rest;  // x - root^2
 };
 
-/// One step of Newton's from the table. x >= 2^30.
+/// One step of Newton's from the table. x >= 2^30. kDivides: by a division, else by the reciprocal.
+template <bool kDivides>
 [[gnu::always_inline]] constexpr RootAndRest root_and_rest(uint32_t x) noexcept {
   WHISKER_ASSERT(x >> 30 != 0);
-  const uint32_t first = (256U + kFirstRoots.of[(x >> 24) - 64]) << 7;
-  // Newton's step is never too small, and here it is too large by less than 1.
-  const uint32_t root = (first + x / first) >> 1;
+  const uint32_t place = (x >> 24) - 64;
+  const uint32_t first = (256U + kFirstRoots.of[place]) << 7;
+  if (kDivides) {
+    // Newton's step is never too small, and here it is too large by less than 1.
+    const uint32_t root = (first + x / first) >> 1;
+    const uint32_t rest = x - root * root;
+    return rest <= 2 * root ? RootAndRest{root, rest} : RootAndRest{root - 1, rest + 2 * root - 1};
+  }
+  // Here it is wrong by at most 1. The rest of the first root is positive with this.
+  const uint32_t reciprocal = 1U + kReciprocals.of[place];
+  const uint32_t above = UINT32_C(1) << 25;
+  const uint32_t root = first + ((x - first * first + above) / 256 * reciprocal >> 16) - 2 * reciprocal;
   const uint32_t rest = x - root * root;
-  return rest <= 2 * root ? RootAndRest{root, rest} : RootAndRest{root - 1, rest + 2 * root - 1};
+  if (rest > UINT32_MAX / 2) return {root - 1, rest + 2 * root - 1};
+  return rest <= 2 * root ? RootAndRest{root, rest} : RootAndRest{root + 1, rest - 2 * root - 1};
+}
+[[gnu::always_inline]] constexpr RootAndRest root_and_rest(uint32_t x) noexcept {
+  return root_and_rest<!kDividesSlowly>(x);
 }
 
 [[gnu::always_inline]] constexpr uint32_t square_root_32(uint32_t x) noexcept {
@@ -131,9 +162,9 @@ constexpr uint64_t squared(Vec v) noexcept {
   return {length * whisker::cos(direction), length * whisker::sin(direction)};
 }
 
-[[gnu::always_inline]] constexpr Length along(const Vec& v, Angle direction) noexcept {
-  const int64_t x = scale_down<4>(int64_t{v.x.raw()} * whisker::cos(direction).raw());
-  const int64_t y = scale_down<4>(int64_t{v.y.raw()} * whisker::sin(direction).raw());
+[[gnu::always_inline]] constexpr Length along(const Vec& v, Facing direction) noexcept {
+  const int64_t x = scale_down<4>(int64_t{v.x.raw()} * direction.cos.raw());
+  const int64_t y = scale_down<4>(int64_t{v.y.raw()} * direction.sin.raw());
   return Length::from_raw(saturate32(scale_down<26>(x + y)));
 }
 
@@ -169,9 +200,15 @@ constexpr Angle bearing(const Vec& v) noexcept { return atan2(v.y.raw(), v.x.raw
   if (__builtin_is_constant_evaluated()) return formula::polar(direction, length);
   return at_run_time::polar(direction, length);
 }
-[[gnu::always_inline]] constexpr Length along(const Vec& v, Angle direction) noexcept {
+[[gnu::always_inline]] constexpr Length along(const Vec& v, Facing direction) noexcept {
   if (__builtin_is_constant_evaluated()) return formula::along(v, direction);
   return at_run_time::along(v, direction);
 }
+constexpr Facing facing(Angle direction) noexcept { return {cos(direction), sin(direction)}; }
+constexpr Vec polar(Facing direction, Length length) noexcept {
+  return {length * direction.cos, length * direction.sin};
+}
+constexpr Length along(const Vec& v, Angle direction) noexcept { return along(v, facing(direction)); }
+constexpr Length across(const Vec& v, Angle direction) noexcept { return across(v, facing(direction)); }
 
 }  // namespace whisker

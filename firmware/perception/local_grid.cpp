@@ -183,12 +183,19 @@ Length LocalGrid::room_for(const ConeObservation& observation) const noexcept {
   return doubting_ && observation.hit ? approach_ : Length{};
 }
 
-void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
+LocalGrid::Apexes LocalGrid::apexes(const ConeObservation& observation,
+                                    const EarlierObservation* before) const noexcept {
+  const Point now = local(observation.beam.apex);
+  return {now, before == nullptr || before->apex == observation.beam.apex ? now : local(before->apex)};
+}
+
+void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before,
+                     const Apexes& at) noexcept {
   const Beam& beam = observation.beam;
   const EarlierObservation last =
       before != nullptr ? *before : EarlierObservation{beam.apex, beam.axis, observation.free};
-  const Point apex = local(beam.apex);
-  const Point apex_before = local(last.apex);
+  const Point apex = at.now;
+  const Point apex_before = at.before;
   if (!nearby(apex) || !nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length taken_off = room_for(observation) + kReadingRounding;
@@ -206,30 +213,44 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const bool wide = observation.hit && beam.half_cone.raw() > kSuspectHalf.raw();
   const Wedge core = wide ? Wedge(beam.axis, kSuspectHalf) : cone;
   const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;
+  const bool suspects = observation.hit && reach_.past != Angle{};
   work_.add(kMarkUnits);
-  for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
+  Rows rows = cone.rows(apex.y, reach);
+  const int32_t first = rows.offset(apex.y);
+  const int32_t up = apex.y - apex_before.y;
+  WedgeCut held = cone.holding(apex.x, first);
+  WedgeCut held_before = cone_before.holding(apex_before.x, first + up);
+  WedgeCut struck = core.clipping(apex.x, first, 0);
+  const auto next = [&] {
+    rows.next();
+    held.next();
+    if (moved) held_before.next();
+    if (observation.hit) struck.next();
+  };
+  for (; rows.more(); next()) {
     const int32_t dy = rows.offset(apex.y);
     work_.add(kMarkRowUnits);
     Span inside = Span::around(apex.x, reach);
-    cone.hold(inside, apex.x, dy);
+    held.clip(inside, dy);
     const int s = slot(rows.row());
     const Row covered = to_torus(inside.columns());
-    if (observation.hit && reach_.past != Angle{}) {
+    Span around = Span::around(apex.x, echo);
+    if (suspects) {
       // Near the apex, the cone holds no cell.
-      Span around = Span::around(apex.x, echo);
-      core.clip(around, apex.x, dy, 0);
-      around.within_disc(apex.x, dy, echo);
-      Span nearer = Span::around(apex.x, echo);
-      nearer.within_disc(apex.x, dy, free - kCellCover);
-      suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
+      struck.clip(around, dy);
+      if (!around.empty()) {
+        around.within_disc(apex.x, dy, echo);
+        Span nearer = Span::around(apex.x, echo);
+        nearer.within_disc(apex.x, dy, free - kCellCover);
+        suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
+      }
     }
     if ((covered & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
     if (moved) {
-      const int32_t dy_before = rows.offset(apex_before.y);
-      cone_before.hold(empty, apex_before.x, dy_before);
-      empty.inside_disc(apex_before.x, dy_before, free_before);
+      held_before.clip(empty, dy + up);
+      empty.inside_disc(apex_before.x, dy + up, free_before);
     }
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
@@ -238,10 +259,11 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     const Row unproved = covered & ~(young_[s] | old_[s]);
     if (observation.aimed) tested_[s] |= unproved;
     if (observation.hit && unproved != 0) {
-      Span near = inside;
-      core.clip(near, apex.x, dy, 0);
-      near.within_disc(apex.x, dy, echo);
-      suspect_[s] |= to_torus(near.columns()) & unproved;
+      if (!suspects) {
+        struck.clip(around, dy);
+        around.within_disc(apex.x, dy, echo);
+      }
+      suspect_[s] |= to_torus(around.columns()) & unproved;
     }
   }
 }
@@ -260,22 +282,27 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
+  const int32_t first = kHalfCell - apex.y;
+  WedgeCut beside = cone.clipping(apex.x, first, -approach);
+  WedgeCut struck = cone.clipping(apex.x, first, 0);
   // The object may extend beyond the cone's edges, and be nearer there, but not behind the apex.
-  const HalfPlane ahead = HalfPlane::facing(beam.axis);
+  Cut ahead(HalfPlane::facing(beam.axis), apex.x, first, 0);
   work_.add(kCells * kArcRowUnits);
-  for (int row = 0; row < kCells; ++row) {
+  for (int row = 0; row < kCells; ++row, beside.next(), struck.next(), ahead.next()) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span around;
-    cone.clip(around, apex.x, dy, -approach);
-    ahead.clip(around, apex.x, dy, 0);
     around.within_disc(apex.x, dy, beyond);
+    if (around.empty()) continue;
+    beside.clip(around, dy);
+    ahead.clip(around, dy);
+    if (around.empty()) continue;
     Span nearer;
     nearer.within_disc(apex.x, dy, nearest);
     Span under;
     under.inside_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_);
     const Row taken = to_torus(around.columns() & ~nearer.columns() & ~under.columns());
     Span echo;
-    cone.clip(echo, apex.x, dy, 0);
+    struck.clip(echo, dy);
     echo.within_disc(apex.x, dy, echo_ends);
     const int s = slot(row);
     young_[s] &= ~taken;
@@ -286,8 +313,8 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
 }
 
 /// What lies outside the window explains an echo.
-bool LocalGrid::leaves_window(const Beam& beam, Length farthest) const noexcept {
-  if (in_window(local(beam.apex), units(farthest) + 2 * kUnitsPerCell)) return false;
+bool LocalGrid::leaves_window(const Beam& beam, Point apex, Length farthest) const noexcept {
+  if (in_window(apex, units(farthest) + 2 * kUnitsPerCell)) return false;
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {
     const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
@@ -296,26 +323,29 @@ bool LocalGrid::leaves_window(const Beam& beam, Length farthest) const noexcept 
   return false;
 }
 
-bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept {
-  const Point apex = local(beam.apex);
+bool LocalGrid::echo_arc(const Beam& beam, Point apex, Length nearest, Length farthest, bool takes) noexcept {
   const Point body = local(last_.at);
   const EchoArc arc{Wedge(beam.axis, beam.half_cone), units(nearest - kReadingRounding),
                     units(farthest) + (takes ? kUnitsPerCell : explains_)};
-  if (!takes && leaves_window(beam, farthest)) return false;
+  if (!takes && leaves_window(beam, apex, farthest)) return false;
   const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
   work_.add(kArcUnits);
-  for (Rows rows = arc.rows(apex.y); rows.more(); rows.next()) {
+  Rows rows = arc.rows(apex.y);
+  for (WedgeCut edges = arc.edges(apex.x, rows.offset(apex.y)); rows.more(); rows.next(), edges.next()) {
     const int s = slot(rows.row());
     const Row clear = young_[s] | old_[s];
-    if ((box & (takes ? clear : ~clear)) == 0) continue;
+    const Row asked = takes ? clear : ~clear;
+    if ((box & asked) == 0) continue;
     work_.add(kArcRowUnits);
+    const Row touched = to_torus(arc.columns(edges, apex.x, rows.offset(apex.y))) & asked;
+    if (touched == 0) continue;
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
-    const Row cells = to_torus(arc.columns(apex.x, rows.offset(apex.y)) & ~under.columns());
+    const Row cells = touched & ~to_torus(under.columns());
     if (takes) {
       young_[s] &= ~cells;
       old_[s] &= ~cells;
-    } else if ((cells & ~(young_[s] | old_[s])) != 0) {
+    } else if (cells != 0) {
       return false;
     }
   }
@@ -323,22 +353,23 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
 }
 
 void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexcept {
-  if (!nearby(local(beam.apex))) return;
-  if (!echo_arc(beam, nearest, farthest, false)) return;
-  echo_arc(beam, nearest, farthest, true);
+  const Point apex = local(beam.apex);
+  if (!nearby(apex)) return;
+  if (!echo_arc(beam, apex, nearest, farthest, false)) return;
+  echo_arc(beam, apex, nearest, farthest, true);
   if (has_lane()) lane_.take_back(beam, nearest - kReadingRounding, farthest);
 }
 
 void LocalGrid::revoke_beside(const ConeObservation& observation, Length farthest, int32_t radii) noexcept {
   Beam beam = observation.beam;
   const Length free = observation.free;
-  if (observation.number == hal::kFront || !nearby(local(beam.apex)) || units(free) > radii * footprint_)
-    return;
+  const Point apex = local(beam.apex);
+  if (observation.number == hal::kFront || !nearby(apex) || units(free) > radii * footprint_) return;
   const Angle beside = Angle::from_raw(kBeside.raw() / 2);
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
-  echo_arc(beam, free, farthest, true);
+  echo_arc(beam, apex, free, farthest, true);
   if (has_lane()) lane_.take_back(beam, free - kReadingRounding, farthest);
 }
 

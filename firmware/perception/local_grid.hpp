@@ -51,13 +51,25 @@ class LocalGrid {
   void reset(const Pose& pose) noexcept;
   /// Moves the window with the body, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
+  /// The apexes of two observations in the grid of this tick.
+  struct Apexes {
+    GridPoint now;
+    GridPoint before;
+  };
+  Apexes apexes(const ConeObservation& observation, const EarlierObservation* before) const noexcept;
   /// Clears the cells that both observations show empty, each from its own pose, so that a single false clear
   /// reading clears nothing. Without an earlier observation, only `observation` decides.
-  void mark(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
+  void mark(const ConeObservation& observation, const EarlierObservation* before, const Apexes& at) noexcept;
+  void mark(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept {
+    mark(observation, before, apexes(observation, before));
+  }
   /// Clears the cells that this reading and those of the same beam before it show empty together; for cells
   /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
   /// is zero.
-  void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
+  void chain(const ConeObservation& observation, const EarlierObservation* before, const Apexes& at) noexcept;
+  void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept {
+    chain(observation, before, apexes(observation, before));
+  }
   /// An object in this beam lies between these distances. If no unclear cell explains it, all cells that the
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
   /// sensor that loses walls seen at an angle may have cleared one of them. An unclear cell explains the echo
@@ -141,8 +153,8 @@ class LocalGrid {
   static constexpr int32_t kDiscUnits = 3, kDiscRowUnits = 1;
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
-  bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
-  bool leaves_window(const Beam& beam, Length farthest) const noexcept;
+  bool echo_arc(const Beam& beam, GridPoint apex, Length nearest, Length farthest, bool takes) noexcept;
+  bool leaves_window(const Beam& beam, GridPoint apex, Length farthest) const noexcept;
   static constexpr int32_t kAbeam = 80;  // a body that passes an obstacle may turn a little towards it
   // An obstacle at the guard's margin from the body comes nearer by less than that margin where the body
   // passes it, if it lies at most sqrt(2 radius margin) ahead.
@@ -206,15 +218,26 @@ class LocalGrid {
   /// Ground that no reading of a link may have seen lies behind this boundary.
   struct Boundary {
     Vec at;
-    Angle facing;
+    Facing facing;
+  };
+  struct Edge {
+    Angle angle;
+    Facing facing;
+  };
+  /// The edges of a cone that sweeps to one side.
+  struct Sweep {
+    Edge trail;
+    Edge lead;
+    Edge trail_before;
+    Edge lead_before;
   };
   /// What an object that approaches may have come nearer since the reading.
   Length room_for(const ConeObservation& observation) const noexcept;
   bool follows(Chain& chain, const ConeObservation& observation) const noexcept;
-  bool link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
+  bool link(const Chain& chain, const Vec& from, const Edge& trail, Angle half_cone,
             Boundary& seen_ahead) const noexcept;
   bool sweep(Chain& chain, const ConeObservation& observation, const EarlierObservation* before,
-             const Boundary* seen_ahead) noexcept;
+             const Apexes& at, const Sweep& edges, const Boundary* seen_ahead) noexcept;
 
   Work work_;
   int32_t column_ = 0;  // of the window's corner, in world cells

@@ -12,18 +12,18 @@ constexpr int32_t kAheadPart = 3, kAheadParts = 10;
 }  // namespace
 
 /// False if the cones of the two readings may not overlap.
-bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
+bool LocalGrid::link(const Chain& chain, const Vec& from, const Edge& trail, Angle half_cone,
                      Boundary& seen_ahead) const noexcept {
   const int32_t sign = chain.left ? 1 : -1;
-  const Angle overlap = (chain.lead - trail) * sign;
+  const Angle overlap = (chain.lead - trail.angle) * sign;
   const int32_t least = static_cast<int32_t>(half_cone.raw() / 4);
   if (overlap.wrapped() < least || overlap.wrapped() > kWidest) return false;
   // Where the old leading edge crosses the new trailing one, both moved towards each other by the error.
   const Length between = across(chain.lead_from - from, chain.lead) * sign + place_error_ * 2;
   const int64_t reach = quotient(int64_t{between.raw()} * Q30::kOne, sin(overlap).raw());
-  const Vec gap = from + polar(trail, Length::from_raw(saturate32(reach)));
+  const Vec gap = from + polar(trail.facing, Length::from_raw(saturate32(reach)));
   const Angle half = Angle::from_raw(overlap.raw() / 2);
-  seen_ahead = {gap, trail + half * sign};
+  seen_ahead = {gap, facing(trail.angle + half * sign)};
   // The part of the gap within the body is free.
   const Vec off = gap - last_.at;
   const Length body = swept_ - place_error_;
@@ -50,94 +50,108 @@ bool LocalGrid::follows(Chain& chain, const ConeObservation& observation) const 
   return false;
 }
 
-void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before) noexcept {
+void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before,
+                      const Apexes& at) noexcept {
   if (reach_.past == Angle{}) return;
   Chain& chain = chains_[observation.number];
   const Beam& beam = observation.beam;
   bool linked = follows(chain, observation);
   const int32_t sign = chain.left ? 1 : -1;
   const Angle half = beam.half_cone * sign;
-  const Vec from_before = before != nullptr ? before->apex : beam.apex;
-  const Angle axis_before = before != nullptr ? before->axis : beam.axis;
+  const auto edge_at = [](Angle direction) { return Edge{direction, facing(direction)}; };
+  const bool both = before != nullptr;
+  const Vec from_before = both ? before->apex : beam.apex;
+  const Angle axis_before = both ? before->axis : beam.axis;
+  Sweep sweep_of{edge_at(beam.axis - half), edge_at(beam.axis + half), {}, {}};
+  sweep_of.trail_before = both ? edge_at(axis_before - half) : sweep_of.trail;
+  sweep_of.lead_before = both ? edge_at(axis_before + half) : sweep_of.lead;
   // Of two readings, either may be wrong. So a link joins the least advanced leading edge to the most
   // advanced trailing one; of a body that drives and turns, one may have the farther apex, the other the
   // farther axis.
   const Angle on = (beam.axis - axis_before) * sign;
   const bool turned_on = on.wrapped() >= 0;
-  const auto shifted_on = [&](Angle edge) {
-    return across(from_before - beam.apex, edge) * sign >= Length{};
+  const auto shifted_on = [&](const Edge& edge) {
+    return across(from_before - beam.apex, edge.facing) * sign >= Length{};
   };
-  const Angle foremost = (turned_on ? beam.axis : axis_before) - half;
-  const Angle rearmost = (turned_on ? axis_before : beam.axis) + half;
+  const Edge& foremost = turned_on ? sweep_of.trail : sweep_of.trail_before;
+  const Edge& rearmost = turned_on ? sweep_of.lead_before : sweep_of.lead;
   Boundary seen_ahead;
   linked = linked &&
            link(chain, shifted_on(foremost) ? beam.apex : from_before, foremost, beam.half_cone, seen_ahead);
-  chain.linked = sweep(chain, observation, before, linked ? &seen_ahead : nullptr);
+  chain.linked = sweep(chain, observation, before, at, sweep_of, linked ? &seen_ahead : nullptr);
   chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
-  chain.lead = rearmost;
+  chain.lead = rearmost.angle;
   chain.last = beam;
   chain.taken = observation.taken;
 }
 
 /// False: the beams lie too far from the window.
 bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const EarlierObservation* before,
-                      const Boundary* seen_ahead) noexcept {
-  const Beam& beam = observation.beam;
+                      const Apexes& at, const Sweep& edges, const Boundary* seen_ahead) noexcept {
   const bool both = before != nullptr;
   const Length room = room_for(observation);
   const auto within = [&](Length free) {
     return units(min(min(free, clears_) - room - kReadingRounding, holds_));
   };
-  const auto side = [&](Angle direction, int32_t which) {
-    const HalfPlane left = HalfPlane::left_of(direction);
-    return which > 0 ? left : HalfPlane{-left.nx, -left.ny};
-  };
-  const int32_t sign = chain.left ? 1 : -1;
-  const Angle half = beam.half_cone * sign;
-  const Angle axis_before = both ? before->axis : beam.axis;
   const Boundary boundary = seen_ahead != nullptr ? *seen_ahead : Boundary{};
-  const Point apex = local(beam.apex);
-  const Point gap = local(boundary.at);
-  const Point apex_before = local(both ? before->apex : beam.apex);
+  const Point apex = at.now;
+  const Point gap = seen_ahead != nullptr ? local(boundary.at) : Point{};
+  const Point apex_before = at.before;
   const int32_t free = within(observation.free);
   const int32_t free_before = both ? within(before->free) : free;
   const bool sound = nearby(apex) && nearby(apex_before) && (seen_ahead == nullptr || nearby(gap));
   const bool goes_on = sound && seen_ahead != nullptr;
-  const HalfPlane trail = side(beam.axis - half, sign);
-  const HalfPlane lead = side(beam.axis + half, -sign);
-  const HalfPlane trail_before = side(axis_before - half, sign);
-  const HalfPlane lead_before = side(axis_before + half, -sign);
-  const HalfPlane ahead = HalfPlane::facing(boundary.facing);
+  const int32_t first = kHalfCell - apex.y;
+  const int32_t up = apex.y - apex_before.y;
+  const auto cut = [](const HalfPlane& plane, Point from) {
+    return Cut(plane, from.x, kHalfCell - from.y, plane.corner());
+  };
+  const auto behind = [&](const Edge& edge, bool left, Point from) {
+    const HalfPlane plane = HalfPlane::left_of(edge.facing);
+    return cut(left ? plane : -plane, from);
+  };
+  Cut trail = behind(edges.trail, chain.left, apex);
+  Cut lead = behind(edges.lead, !chain.left, apex);
+  Cut trail_before = behind(edges.trail_before, chain.left, apex_before);
+  Cut lead_before = behind(edges.lead_before, !chain.left, apex_before);
+  Cut ahead = cut(HalfPlane::ahead_of(boundary.facing), gap);
+  const auto next = [&] {
+    trail.next();
+    lead.next();
+    if (both) trail_before.next();
+    if (both) lead_before.next();
+    if (goes_on) ahead.next();
+  };
   const int32_t reach = sound ? free : -1;
   work_.add(kLinkUnits);
   for (int row = 0; row < kCells; ++row) {
+    if (row > 0) next();
     const int s = slot(row);
     Row& swept = chain.swept[s];
-    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    const int32_t dy = first + row * kUnitsPerCell;
     if (static_cast<int32_t>(magnitude(dy)) > reach) {
       swept = 0;
       continue;
     }
     if (!goes_on) swept = 0;
     work_.add(kLinkRowUnits);
-    const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
     Span empty = Span::around(apex.x, free);
     empty.inside_disc(apex.x, dy, free);
-    if (both) empty.inside_disc(apex_before.x, dy_before, free_before);
+    if (both) empty.inside_disc(apex_before.x, dy + up, free_before);
     if (empty.empty()) {
       swept = 0;
       continue;
     }
     Span kept = empty;
-    if (swept != 0) ahead.hold(kept, gap.x, row * kUnitsPerCell + kHalfCell - gap.y);
+    if (swept != 0) ahead.clip(kept, dy + apex.y - gap.y);
     Span entered = empty;
-    trail.hold(entered, apex.x, dy);
-    if (both) trail_before.hold(entered, apex_before.x, dy_before);
+    trail.clip(entered, dy);
+    if (both) trail_before.clip(entered, dy + up);
     swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
     if ((swept & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span left_behind = empty;
-    lead.hold(left_behind, apex.x, dy);
-    if (both) lead_before.hold(left_behind, apex_before.x, dy_before);
+    lead.clip(left_behind, dy);
+    if (both) lead_before.clip(left_behind, dy + up);
     const Row clear = swept & to_torus(left_behind.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;

@@ -108,7 +108,10 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
   const Row box = to_torus(stadium.box());
+  // The cells whose middle is not right of the start.
+  const Row left = Span{-kUnitsPerCell, start.x + kHalfCell - 1}.columns();
   int32_t nearest = INT32_MAX;
+  Point nearest_unknown;
   work_.add(kPathUnits);
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
     const int s = slot(rows.row());
@@ -119,18 +122,21 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
     const Row solid = blocked & solid_row(rows.row());
     found.suspect += bits(solid);
     if (found.suspect >= enough) break;
+    const Row open = blocked & ~solid;
+    found.unknown += bits(open);
     const int32_t dy = rows.offset(start.y);
-    int32_t dx = kHalfCell - start.x;
-    for (Row open = blocked & ~solid; open != 0; open >>= 1, dx += kUnitsPerCell) {
-      if ((open & 1U) == 0) continue;
-      ++found.unknown;
+    const auto look_at = [&](int cell) {
+      const int32_t dx = offset(cell, start.x);
       const int32_t squared = dx * dx + dy * dy;
-      if (squared < nearest) {
-        nearest = squared;
-        found.nearest_unknown = {length_of(dx), length_of(dy)};
-      }
-    }
+      if (squared >= nearest) return;
+      nearest = squared;
+      nearest_unknown = {dx, dy};
+    };
+    // Of a row, the nearest on either side.
+    if ((open & left) != 0) look_at(kCells - 1 - leading_zeros(open & left));
+    if ((open & ~left) != 0) look_at(lowest(open & ~left));
   }
+  if (found.unknown > 0) found.nearest_unknown = {length_of(nearest_unknown.x), length_of(nearest_unknown.y)};
   return found;
 }
 
@@ -287,7 +293,8 @@ void LocalGrid::vouch(Vec centre, Length radius, const Beam (&beams)[3], const L
 }
 
 void LocalGrid::take_back(const Beam& beam, Length nearest, Length farthest) noexcept {
-  if (nearby(local(beam.apex))) echo_arc(beam, nearest, farthest, true);
+  const Point apex = local(beam.apex);
+  if (nearby(apex)) echo_arc(beam, apex, nearest, farthest, true);
 }
 
 bool LocalGrid::is_clear(Vec at) const noexcept {

@@ -26,8 +26,8 @@ void MotionDetector::configure(const Mount (&mounts)[kBeams]) noexcept {
   mounts_ = mounts;
   outermost_ = Length{};
   for (int i = 0; i < kBeams; ++i) {
-    left_[i] = facing(mounts[i].axis + mounts[i].half_cone);
-    right_[i] = facing(mounts[i].axis - mounts[i].half_cone);
+    left_[i] = Roughly(facing(mounts[i].axis + mounts[i].half_cone));
+    right_[i] = Roughly(facing(mounts[i].axis - mounts[i].half_cone));
     outermost_ = max(outermost_, norm(mounts[i].apex));
   }
 }
@@ -46,15 +46,11 @@ void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBea
   Scan& scan = scan_[newest_];
   scan.at = from.at;
   scan.heading = from.heading;
-  scan.facing = facing(from.heading);
+  scan.facing = Roughly(facing(from.heading));
   scan.hits = hits;
   for (int i = 0; i < kBeams; ++i) {
     scan.free[i] = narrow<uint16_t>(min(free[i], kFarthest).raw() / kUm);
   }
-}
-
-MotionDetector::Facing MotionDetector::facing(Angle direction) noexcept {
-  return {q14(cos(direction)), q14(sin(direction))};
 }
 
 /// A vector of at most 4 m in 32 um, so that its products with a direction fit into 32 bits. The error of
@@ -65,9 +61,9 @@ struct MotionDetector::Near {
 
   static constexpr int32_t units(Length l) noexcept { return l.raw() / 32; }
   static constexpr Near of(const Vec& v) noexcept { return {units(v.x), units(v.y)}; }
-  constexpr int32_t along(Facing d) const noexcept { return (x * d.cos + y * d.sin) / (1 << 14); }
+  constexpr int32_t along(Roughly d) const noexcept { return (x * d.cos + y * d.sin) / (1 << 14); }
   /// To the left of a line in this direction.
-  constexpr int32_t aside(Facing d) const noexcept { return (y * d.cos - x * d.sin) / (1 << 14); }
+  constexpr int32_t aside(Roughly d) const noexcept { return (y * d.cos - x * d.sin) / (1 << 14); }
   /// norm() > distance >= 0.
   constexpr bool farther(int32_t distance) const noexcept {
     const auto squared = [](int32_t a) { return static_cast<uint32_t>(a / 2 * (a / 2)); };
@@ -75,17 +71,13 @@ struct MotionDetector::Near {
   }
 };
 
-bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
+bool MotionDetector::holds(const Scan& scan, int beam, Vec way, Facing heading) const noexcept {
   const Mount& mount = mounts_[beam];
-  const Beam seen_from = beam_of(mount, {{}, scan.heading});
-  const Vec from_apex = way - seen_from.apex;
-  const Length reach = norm(from_apex);
-  const Angle off = bearing(from_apex) - seen_from.axis;
-  // Distance inside the nearer edge; never positive behind the apex.
-  if (reach * cos(off) * sin(mount.half_cone) - abs(reach * sin(off)) * cos(mount.half_cone) < kSlack) {
-    return false;
-  }
-  return (reach + kSlack).raw() / kUm <= scan.free[beam];
+  const Vec from_apex = Vec{along(way, heading), -across(way, heading)} - mount.apex;
+  // Within both edges; never both behind the apex.
+  if (across(from_apex, mount.axis + mount.half_cone) < kSlack) return false;
+  if (-across(from_apex, mount.axis - mount.half_cone) < kSlack) return false;
+  return !farther(from_apex, Length::from_raw((scan.free[beam] + 1) * kUm - 1) - kSlack);
 }
 
 MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexcept {
@@ -99,6 +91,8 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
     if (farther(way, min(kFarthest, outermost_ + Length::from_raw(free * kUm)))) continue;
     const Near off = Near::of(way);
     const Near seen{off.along(scan.facing), off.aside(scan.facing)};
+    bool turned = false;
+    Facing heading;
     for (int i = 0; i < kBeams; ++i) {
       const Mask bit = Mask{1} << (n * kBeams + i);
       if ((among & bit) == 0) continue;
@@ -112,7 +106,9 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
       if (rim < -kHair || from_apex.farther(Near::units(rim + kHair))) continue;
       const bool well_inside = inwards >= Near::units(kSlack + kHair) && rim > kHair &&
                                !from_apex.farther(Near::units(rim - kHair));
-      if (well_inside || holds(scan, i, way)) holding |= bit;
+      if (!well_inside && !turned) heading = facing(scan.heading);
+      turned = turned || !well_inside;
+      if (well_inside || holds(scan, i, way, heading)) holding |= bit;
     }
   }
   return holding;

@@ -51,31 +51,33 @@ class MotionDetector {
   static_assert(kKept * kBeams <= 32);
   static constexpr Mask kOfScan = (Mask{1} << kBeams) - 1;
   /// Cosine and sine of a direction, 2^-14.
-  struct Facing {
+  struct Roughly {
+    Roughly() noexcept = default;
+    explicit Roughly(Facing direction) noexcept : cos(q14(direction.cos)), sin(q14(direction.sin)) {}
     int16_t cos = 0;
     int16_t sin = 0;
   };
-  static Facing facing(Angle direction) noexcept;
   struct Scan {
     Vec at;
     Angle heading;
-    Facing facing;               // the same direction
+    Roughly facing;              // the same direction
     uint16_t free[kBeams] = {};  // 1/8 mm
     uint8_t hits = 0;            // as in add()
   };
   struct Near;
   /// The kept sectors that contain this point.
   Mask holding(Vec point, Mask among) const noexcept;
-  /// The same for one sector, given the vector from its scan to the point; exact to the micrometre.
-  bool holds(const Scan& scan, int beam, Vec way) const noexcept;
+  /// The same for one sector, given the vector from its scan to the point and the direction of the scan;
+  /// exact to a few micrometres.
+  bool holds(const Scan& scan, int beam, Vec way, Facing heading) const noexcept;
 
   Time newest_taken_;
   int8_t newest_ = kKept - 1;
   uint8_t count_ = 0;
   const Mount* mounts_ = nullptr;
-  Facing left_[kBeams];   // edge of the cone, on a body that faces 0
-  Facing right_[kBeams];  // the other one
-  Length outermost_;      // distance of an apex from the centre
+  Roughly left_[kBeams];   // edge of the cone, on a body that faces 0
+  Roughly right_[kBeams];  // the other one
+  Length outermost_;       // distance of an apex from the centre
   Scan scan_[kKept];
 };
 

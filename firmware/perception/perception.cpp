@@ -210,8 +210,9 @@ bool Perception::mark(const ConeObservation& observation, bool single) noexcept 
   // A single clear reading is not evidence: it needs a second one.
   if (!single || had_one) {
     const EarlierObservation* const before = single ? &last : nullptr;
-    local_grid_.mark(observation, before);
-    local_grid_.chain(observation, before);
+    const LocalGrid::Apexes at = local_grid_.apexes(observation, before);
+    local_grid_.mark(observation, before, at);
+    local_grid_.chain(observation, before, at);
   }
   const bool appears = had_one && last.free > observation.free + kAppears;
   last = {observation.beam.apex, observation.beam.axis, observation.free};

@@ -22,11 +22,6 @@ Span touch(int32_t x, int32_t dy, int32_t radius) noexcept {
   return {span.low - kHalfSquare, span.high + kHalfSquare};
 }
 
-/// Distance of a cell's corner from its centre along this normal.
-int32_t corner(int32_t nx, int32_t ny) noexcept {
-  return ceil_div((absolute(nx) + absolute(ny)) * kHalfCell, 1 << 14) + kRim;
-}
-
 }  // namespace
 
 int bits(Row row) noexcept {
@@ -68,9 +63,57 @@ Rows::Rows(int32_t low, int32_t high, int32_t reach) noexcept
   if (last_ > kCells - 1) last_ = kCells - 1;
 }
 
-void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
+template <bool kSteps>
+void CutBy<kSteps>::clip(Span& span, int32_t dy) const noexcept {
+  const int32_t rest = margin_ - ny_ * dy;
+  if (nx_ > 0) {
+    span.cut_low(x_ + ceil_div(rest, nx_));
+  } else if (nx_ < 0) {
+    span.cut_high(x_ - ceil_div(rest, -nx_));
+  } else if (rest > 0) {
+    span.high = span.low - 1;
+  }
+}
+
+CutBy<true>::CutBy(const HalfPlane& plane, int32_t x, int32_t dy, int32_t margin) noexcept
+    : x_(x), nx_(plane.nx) {
   constexpr int32_t kOne = 1 << 14;
-  const int32_t rest = margin * kOne - ny * dy;
+  const int32_t rest = margin * kOne - plane.ny * dy;
+  const int32_t step = plane.ny * kUnitsPerCell;
+  parts_ = nx_ == 0 ? 1 : absolute(nx_);
+  inside_ = ceil_div(rest, parts_);
+  over_ = inside_ * parts_ - rest;
+  step_ = floor_div(step, parts_);
+  step_parts_ = step - step_ * parts_;
+}
+
+void CutBy<true>::next() noexcept {
+  inside_ -= step_;
+  over_ += step_parts_;
+  if (over_ < parts_) return;
+  over_ -= parts_;
+  --inside_;
+}
+
+void CutBy<true>::clip(Span& span, int32_t) const noexcept {
+  if (nx_ > 0) {
+    span.cut_low(x_ + inside_);
+  } else if (nx_ < 0) {
+    span.cut_high(x_ - inside_);
+  } else if (inside_ > 0) {
+    span.high = span.low - 1;
+  }
+}
+
+template class CutBy<false>;
+
+void WedgeCut::clip(Span& span, int32_t dy) const noexcept {
+  left.clip(span, dy);
+  right.clip(span, dy);
+}
+
+void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
+  const int32_t rest = margin * (1 << 14) - ny * dy;
   if (kDividesSlowly) {
     // Most rows lie completely inside or outside, which shows without a division.
     const bool low_inside = (span.low - x) * nx >= rest;
@@ -81,18 +124,18 @@ void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const no
       return;
     }
   }
-  if (nx > 0) {
-    span.cut_low(x + ceil_div(rest, nx));
-  } else if (nx < 0) {
-    span.cut_high(x - ceil_div(rest, -nx));
-  } else if (rest > 0) {
-    span.high = span.low - 1;
-  }
+  CutBy<false>(*this, x, 0, margin).clip(span, dy);
 }
 
-void HalfPlane::hold(Span& span, int32_t x, int32_t dy) const noexcept { clip(span, x, dy, corner(nx, ny)); }
+int32_t HalfPlane::corner() const noexcept {
+  return ceil_div((absolute(nx) + absolute(ny)) * kHalfCell, 1 << 14) + kRim;
+}
 
-HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(direction)), q14(sin(direction))}; }
+void HalfPlane::hold(Span& span, int32_t x, int32_t dy) const noexcept { clip(span, x, dy, corner()); }
+
+HalfPlane HalfPlane::ahead_of(Facing direction) noexcept { return {q14(direction.cos), q14(direction.sin)}; }
+
+HalfPlane HalfPlane::left_of(Facing direction) noexcept { return {-q14(direction.sin), q14(direction.cos)}; }
 
 HalfPlane HalfPlane::facing(const Vec& way, Length length) noexcept {
   const auto part = [&](Length x) { return multiply_divide(x.raw(), 1 << 14, length.raw()); };
@@ -102,8 +145,8 @@ HalfPlane HalfPlane::facing(const Vec& way, Length length) noexcept {
 Wedge::Wedge(Angle axis, Angle half) noexcept
     : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
       right_{-q14(sin(axis - half)), q14(cos(axis - half))},
-      left_corner_(corner(left_.nx, left_.ny)),
-      right_corner_(corner(right_.nx, right_.ny)) {}
+      left_corner_(left_.corner()),
+      right_corner_(right_.corner()) {}
 
 Wedge::Extent Wedge::extent(int32_t radius) const noexcept {
   // At this radius the edges are the highest and lowest points, unless the wedge contains the vertical.
@@ -145,9 +188,13 @@ Rows EchoArc::rows(int32_t y) const noexcept {
   return Rows(y + e.low, y + e.high, off < ends ? off : ends);
 }
 
-Row EchoArc::columns(int32_t x, int32_t dy) const noexcept {
+WedgeCut EchoArc::edges(int32_t x, int32_t dy) const noexcept { return cone.clipping(x, dy, -kCellCover); }
+
+Row EchoArc::columns(int32_t x, int32_t dy) const noexcept { return columns(edges(x, dy), x, dy); }
+
+Row EchoArc::columns(const WedgeCut& edges, int32_t x, int32_t dy) const noexcept {
   Span touched = Span::around(x, ends);
-  cone.clip(touched, x, dy, -kCellCover);
+  edges.clip(touched, dy);
   if (touched.empty()) return 0;
   touched.within_disc(x, dy, ends);
   Span nearer = Span::around(x, ends);
@@ -163,7 +210,7 @@ Stadium::Stadium(const Sweep& sweep) noexcept
       abeam_(sweep.abeam),
       ux_(q14(cos(sweep.heading))),
       uy_(q14(sin(sweep.heading))) {
-  beside_ = radius_ + corner(ux_, uy_);
+  beside_ = radius_ + HalfPlane{ux_, uy_}.corner();
   const int32_t skew = (ux_ < 0 ? -uy_ : uy_) - (uy_ < 0 ? -ux_ : ux_);
   skew_ = scale_down<14>(skew * kHalfCell);
   end_x_ = scale_down<14>(ux_ * length_);

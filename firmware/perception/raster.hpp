@@ -6,8 +6,7 @@
 
 #include <stdint.h>
 
-#include "firmware/math/angle.hpp"
-#include "firmware/math/vec.hpp"
+#include "firmware/math/trig.hpp"
 
 namespace whisker::perception {
 
@@ -95,17 +94,67 @@ class Rows {
 /// A half plane nx x + ny y >= margin; the normal in 2^-14.
 struct HalfPlane {
   /// The half plane ahead of a boundary that faces this direction.
-  static HalfPlane facing(Angle direction) noexcept;
+  static HalfPlane ahead_of(Facing direction) noexcept;
+  static HalfPlane facing(Angle direction) noexcept { return ahead_of(whisker::facing(direction)); }
   /// The same for a vector of this length > 0.
   static HalfPlane facing(const Vec& way, Length length) noexcept;
   /// The half plane to the left of a line in this direction.
-  static HalfPlane left_of(Angle direction) noexcept { return facing(direction + Angle::turns(1, 4)); }
+  static HalfPlane left_of(Facing direction) noexcept;
+  HalfPlane operator-() const noexcept { return {-nx, -ny}; }
   int32_t nx;
   int32_t ny;
   /// dy from the origin of the boundary, whose x is given.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
   /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
+  /// The margin with which clip() keeps them.
+  int32_t corner() const noexcept;
+};
+
+/// The boundary of a half plane, moved inwards by a margin, across the rows of a shape one after another:
+/// clip() of a row, next(), clip() of the next row. kSteps: in steps from row to row, without a division.
+template <bool kSteps>
+class CutBy {
+ public:
+  /// As HalfPlane::clip(), with the dy of the first row.
+  CutBy(const HalfPlane& plane, int32_t x, int32_t, int32_t margin) noexcept
+      : nx_(plane.nx), ny_(plane.ny), x_(x), margin_(margin * (1 << 14)) {}
+  /// dy is that of this row.
+  void clip(Span& span, int32_t dy) const noexcept;
+  void next() noexcept {}
+
+ private:
+  int32_t nx_, ny_;
+  int32_t x_;
+  int32_t margin_;
+};
+template <>
+class CutBy<true> {
+ public:
+  CutBy(const HalfPlane& plane, int32_t x, int32_t dy, int32_t margin) noexcept;
+  void clip(Span& span, int32_t) const noexcept;
+  void next() noexcept;
+
+ private:
+  int32_t x_;
+  int32_t nx_;      // only its sign
+  int32_t inside_;  // of the boundary from x, towards the inside, rounded up
+  int32_t over_;    // rounded up by so many parts
+  int32_t parts_;   // of a unit
+  int32_t step_;    // of a row
+  int32_t step_parts_;
+};
+using Cut = CutBy<kDividesSlowly>;
+
+/// Both edges of a wedge.
+struct WedgeCut {
+  Cut left;
+  Cut right;
+  void clip(Span& span, int32_t dy) const noexcept;
+  void next() noexcept {
+    left.next();
+    right.next();
+  }
 };
 
 /// The points between two directions. half < 90 degrees.
@@ -126,6 +175,13 @@ class Wedge {
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Keeps the part of the row that is at least `margin` inside both edges.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+  /// The same for rows one after another from this one on.
+  WedgeCut holding(int32_t x, int32_t dy) const noexcept {
+    return {{left_, x, dy, left_corner_}, {right_, x, dy, right_corner_}};
+  }
+  WedgeCut clipping(int32_t x, int32_t dy, int32_t margin) const noexcept {
+    return {{left_, x, dy, margin}, {right_, x, dy, margin}};
+  }
 
  private:
   HalfPlane left_;
@@ -143,6 +199,9 @@ struct EchoArc {
   Rows rows(int32_t y) const noexcept;
   /// The apex is at x, and dy from the row.
   Row columns(int32_t x, int32_t dy) const noexcept;
+  /// For rows one after another from this one on.
+  WedgeCut edges(int32_t x, int32_t dy) const noexcept;
+  Row columns(const WedgeCut& edges, int32_t x, int32_t dy) const noexcept;
 };
 
 /// A straight path of a disc.

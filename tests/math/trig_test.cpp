@@ -119,6 +119,21 @@ TEST(SquareRoot, Of32BitsIsTheSame) {
   EXPECT_EQ(square_root_32(UINT32_MAX), 65535U);
 }
 
+// Chips that divide slowly take it.
+TEST(SquareRoot, WithoutADivisionIsTheSame) {
+  const bool all = long_run();
+  for (std::uint64_t x = std::uint64_t{1} << 30; x <= UINT32_MAX; x += all ? 1 : 997) {
+    const formula::RootAndRest by_reciprocal = formula::root_and_rest<false>(static_cast<std::uint32_t>(x));
+    const std::uint64_t r = by_reciprocal.root;
+    ASSERT_TRUE(r * r <= x && x < (r + 1) * (r + 1)) << x;
+    ASSERT_EQ(by_reciprocal.rest, x - r * r);
+  }
+  for (std::uint32_t r = 1U << 15; r <= UINT16_MAX; ++r) {
+    ASSERT_EQ(formula::root_and_rest<false>(r * r).root, r);
+    if (r > 1U << 15) ASSERT_EQ(formula::root_and_rest<false>(r * r - 1).root, r - 1);
+  }
+}
+
 TEST(SquareRoot, Of64BitsIsTheFloorAtEveryScale) {
   std::uint64_t state = 3;
   for (int i = 0; i < 2000000; ++i) {

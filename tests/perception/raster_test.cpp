@@ -194,6 +194,38 @@ TEST(Raster, DiscsTouchAndHoldWholeCells) {
   }
 }
 
+template <bool kSteps>
+std::uint64_t rows_of(const HalfPlane& plane, int32_t x, int32_t y, int32_t margin, int first) {
+  std::uint64_t rows = 0;
+  CutBy<kSteps> cut(plane, x, first * kUnitsPerCell + kHalfCell - y, margin);
+  for (int row = first; row < kCells; ++row, cut.next()) {
+    Span span;
+    cut.clip(span, row * kUnitsPerCell + kHalfCell - y);
+    rows = rows * 31 + (span.empty() ? 0 : span.columns());
+  }
+  return rows;
+}
+
+// Chips that divide slowly take the steps.
+TEST(Raster, CutsInStepsAreTheSameAsByDivisions) {
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Random random(seed);
+    const int32_t x = draw_coordinate(random);
+    const int32_t y = draw_coordinate(random);
+    const HalfPlane plane = HalfPlane::facing(draw_angle(random));
+    const int32_t margin = random.index(1000) - 500;
+    const int first = random.index(kCells);
+    std::uint64_t divided = 0;
+    for (int row = first; row < kCells; ++row) {
+      Span span;
+      plane.clip(span, x, row * kUnitsPerCell + kHalfCell - y, margin);
+      divided = divided * 31 + (span.empty() ? 0 : span.columns());
+    }
+    ASSERT_EQ(rows_of<false>(plane, x, y, margin, first), divided) << seed;
+    ASSERT_EQ(rows_of<true>(plane, x, y, margin, first), divided) << seed;
+  }
+}
+
 TEST(Raster, WedgeHoldsWholeCells) {
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
     Random random(seed);

@@ -23,8 +23,22 @@ struct Columns {
 
 /// The columns whose centres lie within the span.
 Columns within(const perception::Span& span) noexcept {
-  return {perception::ceil_div(span.low - kHalfCell, kUnitsPerCell),
-          floor_div(span.high - kHalfCell, kUnitsPerCell)};
+  // So far to the left, no span begins: the quotients of positive numbers are shifts.
+  constexpr int32_t kLeft = 1 << 20;
+  const auto cell = [](int32_t x) {
+    return narrow<int32_t>(narrow<uint32_t>(x + kLeft * kUnitsPerCell) / kUnitsPerCell) - kLeft;
+  };
+  return {cell(span.low + kUnitsPerCell - 1 - kHalfCell), cell(span.high - kHalfCell)};
+}
+
+/// Calls each(w, cells) for the words with cells of these columns.
+template <class F>
+void each_word(Columns c, const GridShape& shape, F&& each) {
+  const int32_t low = c.first < 0 ? 0 : c.first;
+  const int32_t high = c.last < shape.columns() ? c.last : shape.columns() - 1;
+  if (low > high) return;
+  const int last = static_cast<int>(high / kWordBits);
+  for (int w = static_cast<int>(low / kWordBits); w <= last; ++w) each(w, columns(low, high, w));
 }
 
 int32_t clamped(int32_t x, int32_t most) noexcept { return x > most ? most : x < -most ? -most : x; }
@@ -243,54 +257,52 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold
   GridWord* const sure = this->sure();
   Box box;
   bool takes_back = false;
-  const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
-    const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
-    perception::Span outer{x - reach, x + reach};
-    wedge.clip(outer, x, dy, 0);
-    if (outer.empty()) return;
-    outer.within_disc(x, dy, distance + kHalfCell);
-    if (outer.empty()) return;
-    perception::Span inner{x - reach, x + reach};
-    inner.within_disc(x, dy, distance - kHalfCell);
-    const Columns all = within(outer);
-    const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
-    for (int w = 0; w < shape_.words; ++w) {
-      const int32_t i = row * shape_.words + w;
-      const GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
-      const GridWord cells =
-          columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
-      if (cells != 0) each(i, w, cells);
+  const int32_t begin = first * kUnitsPerCell + kHalfCell - y;
+  const auto arc = [&](const perception::Wedge& wedge, auto&& each) {
+    perception::WedgeCut edges = wedge.clipping(x, begin, 0);
+    for (int32_t row = first; row <= last; ++row, edges.next()) {
+      const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
+      perception::Span outer{x - reach, x + reach};
+      edges.clip(outer, dy);
+      if (outer.empty()) continue;
+      outer.within_disc(x, dy, distance + kHalfCell);
+      if (outer.empty()) continue;
+      perception::Span inner{x - reach, x + reach};
+      inner.within_disc(x, dy, distance - kHalfCell);
+      const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
+      each_word(within(outer), shape_, [&](int w, GridWord all) {
+        const int32_t i = row * shape_.words + w;
+        const GridWord freed = takes_back ? 0 : sure[i] & ~planes_[i];
+        const GridWord cells = all & ~columns(nearer.first, nearer.last, w) & ~freed;
+        if (cells != 0) each(row, w, cells);
+      });
     }
   };
-  for (int32_t row = first; row <= last; ++row) {
+  perception::WedgeCut inside = cone.clipping(x, begin, across);
+  for (int32_t row = first; row <= last; ++row, inside.next()) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span empty{x - reach, x + reach};
-    cone.clip(empty, x, dy, across);
+    inside.clip(empty, dy);
     if (empty.empty()) continue;
     empty.within_disc(x, dy, seen - kInside);
     if (empty.empty()) continue;
-    const Columns c = within(empty);
-    for (int w = 0; w < shape_.words; ++w) {
+    each_word(within(empty), shape_, [&](int w, GridWord cells) {
       const int32_t i = row * shape_.words + w;
-      GridWord cells = columns(c.first, c.last, w);
       if (doubts) cells &= ~oblique(row, w, upright);
       if (hold != nullptr) cells &= ~held(row, w, *hold, cells);
       sure[i] |= cells;
       planes_[i] &= ~cells;
-    }
+    });
   }
   const int32_t rows = last < first ? 0 : last - first + 1;
   if (!echo) return rows;
-  const perception::Wedge core(beam.axis, kSuspectHalf);
   const auto find = [&] {
-    for (int32_t row = first; row <= last; ++row) {
-      arc(cone, row, [&](int32_t, int w, GridWord cells) {
-        int32_t column = w * kWordBits;
-        for (; cells != 0; cells >>= 1, ++column) {
-          if ((cells & 1U) != 0) box.add(column, row);
-        }
-      });
-    }
+    arc(cone, [&](int32_t row, int w, GridWord cells) {
+      int32_t column = w * kWordBits;
+      for (; cells != 0; cells >>= 1, ++column) {
+        if ((cells & 1U) != 0) box.add(column, row);
+      }
+    });
   };
   find();
   if (doubts && box.empty()) {
@@ -302,17 +314,17 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold
   const bool narrow = !box.empty() && wide.x < kWordBits && wide.y < kWordBits &&
                       (wide.x * wide.x + wide.y * wide.y) * kUnitsPerCell * kUnitsPerCell <=
                           most / kUnitsPerCell * (most / kUnitsPerCell);
-  for (int32_t row = first; row <= last; ++row) {
-    arc(narrow ? cone : core, row, [&](int32_t i, int w, GridWord cells) {
-      const GridWord news = narrow ? cells : cells & ~planes_[i];
-      planes_[i] |= news;
-      sure[i] = narrow ? sure[i] | news : sure[i] & ~news;
-      if (hold == nullptr || !(narrow || hold->strict)) return;
-      const GridWord level = ~news | own(*hold, row, w);
-      level_high()[i] &= level;
-      level_low()[i] &= level;
-    });
-  }
+  if (box.empty() && within_cone) return rows * 3;
+  arc(narrow ? cone : perception::Wedge(beam.axis, kSuspectHalf), [&](int32_t row, int w, GridWord cells) {
+    const int32_t i = row * shape_.words + w;
+    const GridWord news = narrow ? cells : cells & ~planes_[i];
+    planes_[i] |= news;
+    sure[i] = narrow ? sure[i] | news : sure[i] & ~news;
+    if (hold == nullptr || !(narrow || hold->strict)) return;
+    const GridWord level = ~news | own(*hold, row, w);
+    level_high()[i] &= level;
+    level_low()[i] &= level;
+  });
   return rows * 3;
 }
 

@@ -155,7 +155,12 @@ class Wavefront::Rows {
   [[gnu::noinline]] void stand_out(Cell at, Row& to) const noexcept;
   void spread(int32_t row, const Row& above, const Row& here, const Row& below) noexcept;
   [[gnu::noinline]] GridWord entering(int32_t row, int w, GridWord fresh) const noexcept;
-
+  /// In this row, open cells of a side that the wavefront enters have no level.
+  bool enters(int32_t row, const Row& here) const noexcept {
+    if (!enters_) return false;
+    return ((here.fresh[1] & left_) | (here.fresh[words_] & right_)) != 0 || (row == 0 && top_) ||
+           (row == shape_.rows - 1 && bottom_);
+  }
   Wavefront& wavefront_;
   const GridShape& shape_;
   const GridWord* const blocking_;
@@ -262,8 +267,7 @@ void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
     here = below;
     below = oldest;
     read(next, *below);
-    const bool complete = next > row;
-    if (complete && ((above->any | here->any | below->any) != 0 || enters_)) {
+    if (next > row && ((above->any | here->any | below->any) != 0 || enters(next - 1, *here))) {
       spread(next - 1, *above, *here, *below);
     }
   }
@@ -271,14 +275,13 @@ void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
 
 inline void Wavefront::Rows::spread(int32_t row, const Row& above, const Row& here,
                                     const Row& below) noexcept {
-  const int words = words_;
-  const bool diagonal = diagonal_;
-  for (int w = 1; w <= words; ++w) {
+  const bool enters = this->enters(row, here);
+  for (int w = 1; w <= words_; ++w) {
     const GridWord fresh = here.fresh[w];
     if (fresh == 0) continue;
     GridWord news =
         beside(here.front[w - 1], here.front[w], here.front[w + 1]) | above.front[w] | below.front[w];
-    if (diagonal) {
+    if (diagonal_) {
       // Not across a blocked corner: only over cells that are open in both rows.
       const GridWord* const open = here.open + w;
       const GridWord* const a = above.front + w;
@@ -286,12 +289,12 @@ inline void Wavefront::Rows::spread(int32_t row, const Row& above, const Row& he
       news |= beside(a[-1] & open[-1], a[0] & open[0], a[1] & open[1]) & above.open[w];
       news |= beside(b[-1] & open[-1], b[0] & open[0], b[1] & open[1]) & below.open[w];
     }
-    if (enters_) news |= entering(row, w - 1, fresh);
+    if (enters) news |= entering(row, w - 1, fresh);
     news &= fresh;
     if (news == 0) continue;
     if (row < wavefront_.new_low_) wavefront_.new_low_ = row;
     wavefront_.new_high_ = row;
-    const int32_t i = row * words + w - 1;
+    const int32_t i = row * words_ + w - 1;
     high_[i] |= news & in_high_;
     low_[i] |= news & in_low_;
   }
@@ -345,7 +348,6 @@ GridWord Wavefront::three(const GridMap& map, const GridWord* plane, Cell p) noe
 bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexcept {
   const int here = phase(map, p);
   if (here < 0) return false;
-  const int nearer = (here + 2) % 3;
   // Of the three rows around, the cells of the level below, and of this level or that.
   GridWord below[3];
   GridWord near[3];
@@ -354,29 +356,29 @@ bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexc
     const GridWord high = three(map, map.level_high(), at);
     const GridWord low = three(map, map.level_low(), at);
     const auto of = [&](int n) { return (n == 0 ? ~high : high) & (n == 1 ? ~low : low); };
-    below[row] = of(nearer);
+    below[row] = of((here + 2) % 3);
     near[row] = below[row] | of(here);
   }
   constexpr GridWord kLeft = 1, kMiddle = 2, kRight = 4;
   // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
-  const GridWord beside = near[1];
   for (int row = 0; row < 3; row += 2) {
     const bool straight = (near[row] & kMiddle) != 0;
-    if (!straight || (beside & kLeft) == 0) below[row] &= ~kLeft;
-    if (!straight || (beside & kRight) == 0) below[row] &= ~kRight;
+    if (!straight || (near[1] & kLeft) == 0) below[row] &= ~kLeft;
+    if (!straight || (near[1] & kRight) == 0) below[row] &= ~kRight;
   }
-  int64_t best = INT64_MAX;
-  for (int32_t n = 0; n < 9; ++n) {
-    if ((below[n / 3] >> (n % 3) & 1U) == 0) continue;
-    const Cell q = p + Cell{n % 3 - 1, n / 3 - 1};
-    const Cell rest = aim - q;
-    const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
-    if (far < best) {
+  // Of the squared distances from the aim, what differs.
+  const Cell rest = aim - p;
+  int32_t best = INT32_MAX;
+  for (int32_t y = -1; y <= 1; ++y) {
+    for (int32_t x = -1; x <= 1; ++x) {
+      if ((below[y + 1] >> (x + 1) & 1U) == 0) continue;
+      const int32_t far = x * x + y * y - 2 * (rest.x * x + rest.y * y);
+      if (far >= best) continue;
       best = far;
-      on = q;
+      on = p + Cell{x, y};
     }
   }
-  return best != INT64_MAX;
+  return best != INT32_MAX;
 }
 
 }  // namespace whisker::planning
