@@ -26,6 +26,28 @@ Duration time_to_stop(const Params& p) noexcept {
          p.wheels.motor_lag + milliseconds(braking);
 }
 
+/// The part of a cone's rows in which an echo lies, at most.
+struct Struck {
+  WedgeCut edges;
+  int32_t x, ends;
+  Row columns(int32_t dy) const noexcept {
+    Span span = Span::around(x, ends);
+    edges.clip(span, dy);
+    if (span.empty()) return 0;
+    span.within_disc(x, dy, ends);
+    return span.columns();
+  }
+  /// Of these columns, those that are not nearer than this.
+  Row from(int32_t begins, Row columns, int32_t dy) const noexcept {
+    if (columns == 0) return 0;
+    Span nearer = Span::around(x, ends);
+    nearer.within_disc(x, dy, begins);
+    return columns & ~nearer.columns();
+  }
+};
+
+bool nearby(const LocalGrid::Apexes& at) noexcept { return nearby(at.now) && nearby(at.before); }
+
 }  // namespace
 
 Beam beam_of(const Mount& mount, const Pose& body) noexcept {
@@ -113,13 +135,11 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   };
   const int32_t right = corner(middle.x) - column_;
   const int32_t up = corner(middle.y) - row_;
+  column_ += right;
+  row_ += up;
   if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
-    column_ += right;
-    row_ += up;
     drop_rows(0, kCells);
   } else {
-    column_ += right;
-    row_ += up;
     const int rows = static_cast<int>(up);
     const int cols = static_cast<int>(right);
     if (rows > 0) drop_rows(kCells - rows, rows);
@@ -194,9 +214,8 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const Beam& beam = observation.beam;
   const EarlierObservation last =
       before != nullptr ? *before : EarlierObservation{beam.apex, beam.axis, observation.free};
-  const Point apex = at.now;
-  const Point apex_before = at.before;
-  if (!nearby(apex) || !nearby(apex_before)) return;
+  const Point apex = at.now, apex_before = at.before;
+  if (!nearby(at)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length taken_off = room_for(observation) + kReadingRounding;
   const Length cleared = min(observation.free, clears_);
@@ -220,30 +239,19 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const int32_t up = apex.y - apex_before.y;
   WedgeCut held = cone.holding(apex.x, first);
   WedgeCut held_before = cone_before.holding(apex_before.x, first + up);
-  WedgeCut struck = core.clipping(apex.x, first, 0);
-  const auto next = [&] {
-    rows.next();
-    held.next();
-    if (moved) held_before.next();
-    if (observation.hit) struck.next();
-  };
-  for (; rows.more(); next()) {
+  Struck struck{core.clipping(apex.x, first, 0), apex.x, echo};
+  for (; rows.more(); rows.next(), held.next(), held_before.next(), struck.edges.next()) {
     const int32_t dy = rows.offset(apex.y);
     work_.add(kMarkRowUnits);
     Span inside = Span::around(apex.x, reach);
     held.clip(inside, dy);
     const int s = slot(rows.row());
     const Row covered = to_torus(inside.columns());
-    Span around = Span::around(apex.x, echo);
+    Row echoes = 0;
     if (suspects) {
       // Near the apex, the cone holds no cell.
-      struck.clip(around, dy);
-      if (!around.empty()) {
-        around.within_disc(apex.x, dy, echo);
-        Span nearer = Span::around(apex.x, echo);
-        nearer.within_disc(apex.x, dy, free - kCellCover);
-        suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
-      }
+      echoes = struck.columns(dy);
+      suspect_[s] |= to_torus(struck.from(free - kCellCover, echoes, dy)) & ~(young_[s] | old_[s]);
     }
     if ((covered & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span empty = inside;
@@ -259,11 +267,8 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     const Row unproved = covered & ~(young_[s] | old_[s]);
     if (observation.aimed) tested_[s] |= unproved;
     if (observation.hit && unproved != 0) {
-      if (!suspects) {
-        struck.clip(around, dy);
-        around.within_disc(apex.x, dy, echo);
-      }
-      suspect_[s] |= to_torus(around.columns()) & unproved;
+      if (!suspects) echoes = struck.columns(dy);
+      suspect_[s] |= to_torus(echoes) & unproved;
     }
   }
 }

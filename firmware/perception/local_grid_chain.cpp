@@ -9,6 +9,28 @@ constexpr Duration kLongestLink = 450_ms;
 // The gap point may lie within the body if what lies behind it, ahead of this part of the radius, does too.
 constexpr int32_t kAheadPart = 3, kAheadParts = 10;
 
+/// Across the rows of the window: the line from this point in this direction, with the side to keep.
+Cut side_of(Facing line, bool left, GridPoint from) noexcept {
+  const HalfPlane plane = HalfPlane::left_of(line);
+  return {left ? plane : -plane, from.x, kHalfCell - from.y, plane.corner()};
+}
+
+/// An edge of a reading and, if there is one, of the reading before it.
+struct Edges {
+  Cut now;
+  Cut before;
+  bool both;
+
+  void clip(Span& span, int32_t dy, int32_t dy_before) const noexcept {
+    now.clip(span, dy);
+    if (both) before.clip(span, dy_before);
+  }
+  void next() noexcept {
+    now.next();
+    if (both) before.next();
+  }
+};
+
 }  // namespace
 
 /// False if the cones of the two readings may not overlap.
@@ -103,24 +125,16 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const bool goes_on = sound && seen_ahead != nullptr;
   const int32_t first = kHalfCell - apex.y;
   const int32_t up = apex.y - apex_before.y;
-  const auto cut = [](const HalfPlane& plane, Point from) {
-    return Cut(plane, from.x, kHalfCell - from.y, plane.corner());
-  };
-  const auto behind = [&](const Edge& edge, bool left, Point from) {
-    const HalfPlane plane = HalfPlane::left_of(edge.facing);
-    return cut(left ? plane : -plane, from);
-  };
-  Cut trail = behind(edges.trail, chain.left, apex);
-  Cut lead = behind(edges.lead, !chain.left, apex);
-  Cut trail_before = behind(edges.trail_before, chain.left, apex_before);
-  Cut lead_before = behind(edges.lead_before, !chain.left, apex_before);
-  Cut ahead = cut(HalfPlane::ahead_of(boundary.facing), gap);
+  Edges trail{side_of(edges.trail.facing, chain.left, apex),
+              side_of(edges.trail_before.facing, chain.left, apex_before), both};
+  Edges lead{side_of(edges.lead.facing, !chain.left, apex),
+             side_of(edges.lead_before.facing, !chain.left, apex_before), both};
+  const HalfPlane beyond = HalfPlane::ahead_of(boundary.facing);
+  Cut ahead(beyond, gap.x, kHalfCell - gap.y, beyond.corner());
   const auto next = [&] {
     trail.next();
     lead.next();
-    if (both) trail_before.next();
-    if (both) lead_before.next();
-    if (goes_on) ahead.next();
+    ahead.next();
   };
   const int32_t reach = sound ? free : -1;
   work_.add(kLinkUnits);
@@ -145,13 +159,11 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
     Span kept = empty;
     if (swept != 0) ahead.clip(kept, dy + apex.y - gap.y);
     Span entered = empty;
-    trail.clip(entered, dy);
-    if (both) trail_before.clip(entered, dy + up);
+    trail.clip(entered, dy, dy + up);
     swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
     if ((swept & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span left_behind = empty;
-    lead.clip(left_behind, dy);
-    if (both) lead_before.clip(left_behind, dy + up);
+    lead.clip(left_behind, dy, dy + up);
     const Row clear = swept & to_torus(left_behind.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
