@@ -56,11 +56,12 @@ using planning::GridMap;
 using planning::Wavefront;
 
 #if defined(WHISKER_PROFILE_PATCH)
-WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationEPKNS0_18EarlierObservationE,
-                 void,
-                 (LocalGrid * local_grid, const perception::ConeObservation& observation,
-                  const perception::EarlierObservation* before),
-                 (local_grid, observation, before))
+WHISKER_MEASURED(
+    _ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationEPKNS0_18EarlierObservationERKNS1_6ApexesE,
+    void,
+    (LocalGrid * local_grid, const perception::ConeObservation& observation,
+     const perception::EarlierObservation* before, const LocalGrid::Apexes& at),
+    (local_grid, observation, before, at))
 WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid7move_toERKNS_4PoseE, void,
                  (LocalGrid * local_grid, const Pose& pose), (local_grid, pose))
 #elif defined(WHISKER_PROFILE_MARKS)

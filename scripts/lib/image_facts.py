@@ -110,6 +110,7 @@ class CallGraph:
                     self.own[title] = max(self.own.get(title, 0), int(size[1]))
             for source, target in re.findall(r'sourcename: "([^"]+)" targetname: "([^"]+)"', text):
                 self.calls[source].add(target)
+        self.instances = {title.rpartition(":")[2]: title for title in self.own if ":" in title}
 
     def targets(self, caller):
         for called in self.calls[caller]:
@@ -136,6 +137,8 @@ class CallGraph:
             for called in self.targets(function):
                 # A constructor has two symbol names for one function.
                 called = called if called in self.own else re.sub(r"C1E", "C2E", called)
+                # An instance of a template has, in the object that defines it, the file before its name.
+                called = self.instances.get(called, called) if called not in self.own else called
                 if called in self.own:
                     best = max(best, self._deepest(called, done, (*above, function)))
                 elif re.fullmatch(r"__\w+|mem\w+", called):
