@@ -113,8 +113,8 @@ void WedgeCut::clip(Span& span, int32_t dy) const noexcept {
 }
 
 void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
-  const int32_t rest = margin * (1 << 14) - ny * dy;
   if (kDividesSlowly) {
+    const int32_t rest = margin * (1 << 14) - ny * dy;
     // Most rows lie completely inside or outside, which shows without a division.
     const bool low_inside = (span.low - x) * nx >= rest;
     const bool high_inside = (span.high - x) * nx >= rest;
