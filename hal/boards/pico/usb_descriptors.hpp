@@ -21,7 +21,6 @@ enum Kind : uint8_t { kDevice = 1, kConfigurations = 2, kString = 3 };
 
 // Strings by number; 0 is the list of languages.
 constexpr uint8_t kMaker = 1, kProduct = 2, kSerial = 3;
-constexpr uint8_t kStrings = 4;
 
 /// 0x1209 belongs to pid.codes, and its product 0x0001 to nobody: it is for tests
 /// (docs/build-a-pico-robot.md).
@@ -31,26 +30,13 @@ constexpr uint16_t kMilliamperes = 250;
 constexpr uint8_t low(uint16_t word) noexcept { return static_cast<uint8_t>(word); }
 constexpr uint8_t high(uint16_t word) noexcept { return static_cast<uint8_t>(word >> 8); }
 
-inline constexpr uint8_t kDeviceDescriptor[18] = {18,
-                                                  kDevice,
-                                                  0x00,
-                                                  0x02,  // USB 2.0
-                                                  0xEF,
-                                                  0x02,
-                                                  0x01,  // its interfaces have an association
-                                                  64,
-                                                  low(kVendorId),
-                                                  high(kVendorId),
-                                                  low(kProductId),
-                                                  high(kProductId),
-                                                  0x00,
-                                                  0x01,  // version
-                                                  kMaker,
-                                                  kProduct,
-                                                  kSerial,
-                                                  1};
-
 // clang-format off
+inline constexpr uint8_t kDeviceDescriptor[18] = {
+    18, kDevice, 0x00, 0x02,                         // USB 2.0
+    0xEF, 0x02, 0x01, 64,                            // its interfaces have an association; packets of 64 bytes
+    low(kVendorId), high(kVendorId), low(kProductId), high(kProductId), 0x00, 0x01,  // version 1.0
+    kMaker, kProduct, kSerial, 1};
+
 inline constexpr uint8_t kConfigurationDescriptor[75] = {
     9, kConfigurations, 75, 0, kInterfaces, kConfiguration, 0, 0x80, kMilliamperes / 2,
     8, 0x0B, kControlInterface, kInterfaces, 0x02, 0x02, 0x00, 0,  // association: communication, abstract control

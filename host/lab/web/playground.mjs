@@ -5,7 +5,7 @@ import {readFile, writeFile} from 'node:fs/promises';
 import {join} from 'node:path';
 import {bundled, bundledPage, here} from './bundle.mjs';
 
-const MOST = {'index.html': 262_144, 'pico.js': 620_000};
+const MOST = {'index.html': 260_000, 'pico.js': 620_000};
 
 /**
  * The number of zeros that fill the last word, then four bytes in five characters of ( to |, low digit first; } stands
@@ -22,7 +22,8 @@ function base85(bytes) {
   return text.replaceAll('<', '}');
 }
 
-const packed = (bytes) => base85(deflateSync(bytes, {level: 9}));
+// With blocks of this size, whose codes follow what is in them, a module is shortest.
+const packed = (bytes) => base85(deflateSync(bytes, {level: 9, memLevel: 7}));
 
 async function module(file) {
   const wasm = await readFile(file);
