@@ -46,7 +46,7 @@ struct Struck {
   }
 };
 
-bool nearby(const LocalGrid::Apexes& at) noexcept { return nearby(at.now) && nearby(at.before); }
+bool both_nearby(const LocalGrid::Apexes& at) noexcept { return nearby(at.now) && nearby(at.before); }
 
 }  // namespace
 
@@ -215,7 +215,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const EarlierObservation last =
       before != nullptr ? *before : EarlierObservation{beam.apex, beam.axis, observation.free};
   const Point apex = at.now, apex_before = at.before;
-  if (!nearby(at)) return;
+  if (!both_nearby(at)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length taken_off = room_for(observation) + kReadingRounding;
   const Length cleared = min(observation.free, clears_);
