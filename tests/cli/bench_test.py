@@ -21,7 +21,7 @@ PATIENT = ("--timeout", 60)
 SILENCE = ("--timeout", 3)  # nobody will answer; it is enough to get onto the bus of a busy computer
 FAR = "time_limit_s = 3000.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 500.0\ny_m = 0.0\n"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/bench.md"
+PAGE = ROOT / "docs/can.md"
 STRAIGHT = ROOT / "host/lab/rules/laws/straight.toml"
 
 
@@ -192,7 +192,7 @@ class Nodes(Beside):
 
 
 class Page(Beside):
-    """The commands of docs/bench.md that show what they print."""
+    """The commands of docs/can.md that show what they print."""
 
     def test_shows_what_the_commands_print(self):
         self.controller()

@@ -21,7 +21,7 @@ enum class Sign : uint8_t {
 
 /// A whole robot on one chip: controller and base, which talk over a bus inside of the program, so that a
 /// cable to the port `line` shows all of their frames, and an operator on it gives goals and parameters
-/// (docs/bench.md).
+/// (docs/can.md).
 ///
 /// It stands after its start, with the place where it stands as its origin, and takes the goals of an
 /// operator. Its button, pressed briefly, sends it kAhead straight ahead; held, it turns on the spot to
