@@ -113,7 +113,10 @@ void Node::receive(const hal::CanFrame& frame) noexcept {
   } else if (is_operator(node, kind)) {
     receive_from_operator(kind, frame);
   } else if (is_sound(kind, frame)) {
-    if (node == node_) {
+    if (node == node_ && kind == MessageKind::info_request) {
+      // A survey asks the other node in the place of this one, which was silent then.
+      count(health_.foreign);
+    } else if (node == node_) {
       count(health_.duplicates);
       stop(Error::duplicate_node);
     } else if (node == peer_node_) {

@@ -481,6 +481,18 @@ TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
   EXPECT_EQ(base_.state(), NodeState::safe_stop);
 }
 
+// From before it was on the bus: `whisker bench watch --nodes` asks a node without a partner in the partner's place.
+TEST_F(BaseAlone, AQuestionInItsNameIsNoTwin) {
+  start();
+  bus::ScriptedNode survey{wire_, 9};
+  survey.poll(now_);
+  survey.say(InfoRequest{});
+  pass();
+  EXPECT_EQ(base_.health().duplicates, 0U);
+  EXPECT_EQ(base_.health().foreign, 1U);
+  EXPECT_EQ(base_.state(), NodeState::running);
+}
+
 TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
   for (const std::uint16_t error : {Error::duplicate_node, Error::bus_off_latched}) {
     if (base_.state() == NodeState::waiting) start();

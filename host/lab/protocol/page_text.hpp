@@ -25,7 +25,7 @@ has no goals: an [operator](#an-operator-and-a-guard-node) commands its velocity
 An identifier is `function << 4 | node of the sender`. An operator is no node. It sends functions that no controller sends, with the number
 of the robot's controller. So no two senders share an identifier, and a lower function has
 priority on the bus, whatever the node. A node that receives a valid frame with its own number stops permanently
-(duplicate_node), so an adapter must not echo.
+(duplicate_node), so an adapter must not echo. InfoRequest is the exception: a survey of the bus sends it in the place of a silent node.
 
 ## Axes
 
