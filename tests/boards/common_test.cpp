@@ -19,7 +19,15 @@ TEST(RingTest, IsAQueueThatRefusesWhenFull) {
   sim::Random random(1, 0);
   Ring<int, 8> ring;
   std::deque<int> oracle;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 80000; ++i) {  // its indices go round
+    ASSERT_EQ(ring.size(), oracle.size());
+    if (!oracle.empty()) {
+      ASSERT_EQ(ring.at(static_cast<std::uint16_t>(oracle.size() - 1)), oracle.back());
+    }
+    if (i % 100 == 0) {
+      ring.drop(static_cast<std::uint16_t>(oracle.size() / 2));
+      oracle.erase(oracle.begin(), oracle.begin() + static_cast<std::ptrdiff_t>(oracle.size() / 2));
+    }
     if (random.uniform() < (i / 1000 % 2 == 0 ? 0.6 : 0.4)) {
       EXPECT_EQ(ring.push(i), oracle.size() < 8);
       if (oracle.size() < 8) oracle.push_back(i);

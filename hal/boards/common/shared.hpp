@@ -13,35 +13,44 @@ namespace whisker::hal::mcu {
 inline void compiler_barrier() noexcept { asm volatile("" ::: "memory"); }
 
 /// A queue with one writer and one reader.
-template <class T, uint8_t kSize>
+template <class T, uint16_t kSize>
 class Ring {
-  static_assert(kSize >= 2 && kSize <= 128 && (kSize & (kSize - 1)) == 0, "a power of two, 2..128");
+  static_assert(kSize >= 2 && kSize <= 32768 && (kSize & (kSize - 1)) == 0, "a power of two, 2..32768");
 
  public:
   /// For the writer. False: full; nothing was stored.
   bool push(const T& value) noexcept {
-    const uint8_t head = head_;
-    if (static_cast<uint8_t>(head - tail_) == kSize) return false;
+    const uint16_t head = head_;
+    if (static_cast<uint16_t>(head - tail_) == kSize) return false;
     item_[head % kSize] = value;
     compiler_barrier();
-    head_ = static_cast<uint8_t>(head + 1);
+    head_ = static_cast<uint16_t>(head + 1);
     return true;
   }
   /// For the reader. False: empty; `out` is unchanged.
   bool pop(T& out) noexcept {
-    const uint8_t tail = tail_;
-    if (head_ == tail) return false;
-    compiler_barrier();
-    out = item_[tail % kSize];
-    compiler_barrier();
-    tail_ = static_cast<uint8_t>(tail + 1);
+    if (size() == 0) return false;
+    out = at(0);
+    drop(1);
     return true;
+  }
+  /// For the reader: the values that wait, the one that is i places behind the first, and the first ones
+  /// gone.
+  uint16_t size() const noexcept {
+    const uint16_t size = static_cast<uint16_t>(head_ - tail_);
+    compiler_barrier();
+    return size;
+  }
+  const T& at(uint16_t i) const noexcept { return item_[(tail_ + i) % kSize]; }
+  void drop(uint16_t count) noexcept {
+    compiler_barrier();
+    tail_ = static_cast<uint16_t>(tail_ + count);
   }
 
  private:
   T item_[kSize] = {};
-  volatile uint8_t head_ = 0;
-  volatile uint8_t tail_ = 0;
+  volatile uint16_t head_ = 0;
+  volatile uint16_t tail_ = 0;
 };
 
 /// The newest value from an interrupt; the loop reads it consistently.

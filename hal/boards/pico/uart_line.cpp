@@ -37,13 +37,7 @@ size_t UartLine::take(uint8_t* to, size_t room) noexcept {
 
 size_t UartLine::offer(const uint8_t* from, size_t count) noexcept {
   size_t put = 0;
-  for (; put < count; ++put) {
-    const uint16_t head = out_head_;
-    if (static_cast<uint16_t>(head - out_tail_) == kOutDepth) break;
-    out_[head % kOutDepth] = from[put];
-    mcu::compiler_barrier();
-    out_head_ = static_cast<uint16_t>(head + 1);
-  }
+  while (put < count && out_.push(from[put])) ++put;
   // The interrupt comes when the queue becomes nearly empty, so the first bytes need a start.
   clear_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
   fill();
@@ -51,12 +45,9 @@ size_t UartLine::offer(const uint8_t* from, size_t count) noexcept {
 }
 
 void UartLine::fill() noexcept {
-  while (out_tail_ != out_head_ && !is_set(base::kUart0, uart::kTxff)) {
-    const uint16_t tail = out_tail_;
-    store(base::kUart0, uart::kUartdr, out_[tail % kOutDepth]);
-    out_tail_ = static_cast<uint16_t>(tail + 1);
-  }
-  if (out_tail_ != out_head_) set_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
+  uint8_t byte = 0;
+  while (!is_set(base::kUart0, uart::kTxff) && out_.pop(byte)) store(base::kUart0, uart::kUartdr, byte);
+  if (out_.size() != 0) set_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
 }
 
 void UartLine::on_interrupt() noexcept {

@@ -31,9 +31,7 @@ class UartLine final : public ByteLine {
 
   mcu::Ring<uint8_t, 128> received_;
   mcu::Events lost_;
-  uint8_t out_[kOutDepth] = {};
-  volatile uint16_t out_head_ = 0;  // offer() writes it
-  volatile uint16_t out_tail_ = 0;  // fill() does
+  mcu::Ring<uint8_t, kOutDepth> out_;
 };
 
 }  // namespace whisker::hal::pico

@@ -1,6 +1,5 @@
 #include "hal/boards/pico/usb_data.hpp"
 
-#include "hal/boards/common/shared.hpp"
 #include "hal/boards/pico/reg/bases.hpp"
 #include "hal/boards/pico/reg/usb_dpram.hpp"
 #include "hal/boards/pico/usb_descriptors.hpp"
@@ -23,7 +22,7 @@ void UsbData::end() noexcept {
   notices_.reset(false);
   in_.reset(false);
   out_.reset(false);
-  tail_ = head_;
+  queue_.drop(queue_.size());
   packet_ = left_ = 0;
 }
 
@@ -62,7 +61,7 @@ void UsbData::listen() noexcept {
 void UsbData::on_sent() noexcept {
   if (!busy_) return;
   busy_ = false;
-  tail_ = static_cast<uint16_t>(tail_ + packet_);
+  queue_.drop(packet_);
   packet_ = 0;
   go_on();
 }
@@ -74,7 +73,7 @@ void UsbData::on_received() noexcept {
 }
 
 void UsbData::discard() noexcept {
-  tail_ = head_;
+  queue_.drop(queue_.size());
   packet_ = 0;
   open_ended_ = false;
   if (left_ == 0) return;
@@ -84,23 +83,16 @@ void UsbData::discard() noexcept {
 
 size_t UsbData::put(const uint8_t* from, size_t count) noexcept {
   size_t put = 0;
-  for (; put < count; ++put) {
-    const uint16_t head = head_;
-    if (static_cast<uint16_t>(head - tail_) == kDepth) break;
-    queue_[head % kDepth] = from[put];
-    mcu::compiler_barrier();
-    head_ = static_cast<uint16_t>(head + 1);
-  }
+  while (put < count && queue_.push(from[put])) ++put;
   return put;
 }
 
 void UsbData::go_on() noexcept {
   if (!on_ || busy_ || in_.halted()) return;
-  const uint16_t tail = tail_;
-  const auto waiting = static_cast<uint16_t>(head_ - tail);
+  const uint16_t waiting = queue_.size();
   if (waiting == 0 && !open_ended_) return;
   packet_ = static_cast<uint8_t>(waiting < UsbPipe::kPacket ? waiting : UsbPipe::kPacket);
-  for (uint8_t i = 0; i < packet_; ++i) in_.put(i, queue_[(tail + i) % kDepth]);
+  for (uint8_t i = 0; i < packet_; ++i) in_.put(i, queue_.at(i));
   open_ended_ = packet_ == UsbPipe::kPacket;
   busy_ = true;
   in_.arm(packet_);

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "hal/boards/common/shared.hpp"
 #include "hal/boards/pico/usb_pipe.hpp"
 
 namespace whisker::hal::pico {
@@ -46,12 +47,10 @@ class UsbData {
   UsbPipe notices_, in_, out_;
   bool on_ = false;
   // To the host.
-  volatile uint16_t head_ = 0;  // put() writes it
-  volatile uint16_t tail_ = 0;  // of what has arrived
+  mcu::Ring<uint8_t, kDepth> queue_;
   volatile bool busy_ = false;  // the controller has a packet
   uint8_t packet_ = 0;          // its bytes of the queue
   bool open_ended_ = false;     // the last packet was full, so the host expects another one
-  uint8_t queue_[kDepth] = {};
   // From the host.
   volatile uint8_t left_ = 0;  // bytes of its packet that are still to take
   uint8_t at_ = 0;
