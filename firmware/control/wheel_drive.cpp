@@ -36,8 +36,8 @@ bool WheelDrive::command(WheelPair speeds) noexcept {
 
 hal::WheelSpeeds to_wire(WheelPair speeds) noexcept {
   constexpr int32_t kUmPerS = 100;
-  return {saturate16(narrow<int32_t>(divide_rounded(speeds.left.raw(), kUmPerS))),
-          saturate16(narrow<int32_t>(divide_rounded(speeds.right.raw(), kUmPerS)))};
+  return {saturate16(divide_rounded_32(speeds.left.raw(), kUmPerS)),
+          saturate16(divide_rounded_32(speeds.right.raw(), kUmPerS))};
 }
 
 bool turns_on_wire(WheelPair speeds) noexcept {

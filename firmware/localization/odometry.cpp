@@ -34,6 +34,7 @@ void Odometry::configure(const Params& params) noexcept {
 void Odometry::place(const Pose& pose) noexcept {
   x_ = int64_t{pose.at.x.raw()} * 65536;
   y_ = int64_t{pose.at.y.raw()} * 65536;
+  at_ = pose.at;
   start_heading_ = pose.heading;
   heading_ = pose.heading;
   difference_ = 0;
@@ -70,7 +71,7 @@ bool Odometry::take(const hal::EncoderCounts& counts, Duration since, CountStep&
 }
 
 void Odometry::advance(const CountStep& step, Angle turn) noexcept {
-  const Vec from = pose().at;
+  const Vec from = at_;
   const Angle middle = heading_ + scaled(turn, Q15::ratio(1, 2));
   heading_ += turn;
   int64_t both = (step.left + step.right) * um_per_count_;
@@ -78,7 +79,8 @@ void Odometry::advance(const CountStep& step, Angle turn) noexcept {
   const int64_t distance_q10 = scale_down<7>(both);
   x_ += scale_down<24>(distance_q10 * cos(middle).raw());
   y_ += scale_down<24>(distance_q10 * sin(middle).raw());
-  travelled_um_ += static_cast<uint32_t>(norm(pose().at - from).raw());
+  at_ = {Length::from_raw(saturate32(scale_down<16>(x_))), Length::from_raw(saturate32(scale_down<16>(y_)))};
+  travelled_um_ += static_cast<uint32_t>(norm(at_ - from).raw());
 }
 
 int64_t Odometry::difference(const CountStep& step) const noexcept {
@@ -95,12 +97,6 @@ Angle Odometry::turn_of(int64_t difference) const noexcept {
 
 int32_t Odometry::counts_per_turn() const noexcept {
   return saturate32(static_cast<int64_t>(quotient_64(UINT64_C(1) << 48, turn_per_count_)));
-}
-
-Pose Odometry::pose() const noexcept {
-  return {
-      {Length::from_raw(saturate32(scale_down<16>(x_))), Length::from_raw(saturate32(scale_down<16>(y_)))},
-      heading_};
 }
 
 }  // namespace whisker::localization

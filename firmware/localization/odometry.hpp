@@ -40,7 +40,7 @@ class Odometry {
   /// Counts of one wheel for a full turn of the body with the other wheel at rest.
   int32_t counts_per_turn() const noexcept;
 
-  Pose pose() const noexcept;
+  Pose pose() const noexcept { return {at_, heading_}; }
   /// The length of the way so far, um modulo 2^32; place() does not change it.
   uint32_t travelled_um() const noexcept { return travelled_um_; }
 
@@ -53,6 +53,7 @@ class Odometry {
   };
   int64_t x_ = 0;  // 2^-16 um
   int64_t y_ = 0;
+  Vec at_;  // the same, rounded
   uint32_t travelled_um_ = 0;
   Angle start_heading_;
   Angle heading_;

@@ -62,7 +62,16 @@ constexpr int64_t square(int64_t x) noexcept {
 /// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
 [[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d > 0 && n <= INT64_MAX - d / 2 && n >= INT64_MIN + d / 2);
-  return quotient(n < 0 ? n - d / 2 : n + d / 2, d);
+  const auto half = static_cast<int32_t>(static_cast<uint32_t>(d) / 2);
+  return quotient(n < 0 ? n - half : n + half, d);
+}
+/// The same for numerators of 32 bits.
+[[gnu::noinline]] constexpr int32_t divide_rounded_32(int32_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d > 0);
+  const int32_t whole = n / d;
+  const int32_t rest = n - whole * d;
+  const auto half = static_cast<int32_t>((static_cast<uint32_t>(d) + 1) / 2);
+  return rest >= half ? whole + 1 : rest <= -half ? whole - 1 : whole;
 }
 /// The same for denominators that may have more than 32 bits.
 [[gnu::noinline]] constexpr int64_t divide_rounded_64(int64_t n, int64_t d) noexcept {

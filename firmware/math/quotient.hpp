@@ -12,8 +12,8 @@
 namespace whisker {
 
 /// Whether quotients come from quotient_by_parts, which needs fast instructions for 32-bit quotients, 64-bit
-/// products and leading zeros. Other processors use /: they divide 64 bits in hardware, or lack one of
-/// these.
+/// products and leading zeros. Chips that divide slowly take its first case from it, and the others, like
+/// other processors, from /: they divide 64 bits in hardware, or lack one of these.
 #if defined(__arm__) && defined(__ARM_FEATURE_IDIV) && defined(__ARM_FEATURE_CLZ)
 constexpr bool kDividesByParts = true;
 #else
@@ -41,8 +41,19 @@ constexpr int leading_zeros(uint32_t x) noexcept {
   return __builtin_clzl(x) - static_cast<int>(8 * (sizeof(unsigned long) - sizeof x));
 }
 
+/// n / d of numbers as most are: a quotient of the upper 32 bits, then one of the rest.
+constexpr bool in_two_parts(uint64_t n, uint32_t d) noexcept { return n >> 47 == 0 && d >> 17 == 0; }
+constexpr uint64_t quotient_of_two_parts(uint64_t n, uint32_t d) noexcept {
+  const uint32_t part = static_cast<uint32_t>(n >> 15);
+  const uint32_t upper = part / d;
+  const uint32_t rest = (part - upper * d) << 15 | (static_cast<uint32_t>(n) & 0x7FFF);
+  return (uint64_t{upper} << 15) + rest / d;
+}
+
 /// n / d from 32-bit quotients.
 [[gnu::noinline]] constexpr uint64_t quotient_by_parts(uint64_t n, uint32_t d) noexcept {
+  if (in_two_parts(n, d)) return quotient_of_two_parts(n, d);
+  if (kDividesSlowly) return n / d;
   const uint32_t high = static_cast<uint32_t>(n >> 32);
   const uint32_t upper = high / d;
   // Shifted until the denominator has 32 bits. Then the rest is less than 2^32 denominators.
@@ -76,12 +87,13 @@ constexpr int leading_zeros(uint32_t x) noexcept {
 /// n / d.
 [[gnu::always_inline]] constexpr uint64_t quotient(uint64_t n, uint32_t d) noexcept {
   WHISKER_ASSERT(d != 0);
-  return kDividesByParts ? quotient_by_parts(n, d) : n / d;
+  return kDividesByParts || kDividesSlowly ? quotient_by_parts(n, d) : n / d;
 }
 constexpr int64_t quotient(int64_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d != 0);
-  // Most numerators are small, and 32-bit division is much faster on most chips.
-  if (n >= -INT32_MAX && n <= INT32_MAX) return static_cast<int32_t>(n) / d;
+  // Most numerators are small, and 32-bit division is much faster on most chips. INT32_MIN / -1 has no room.
+  const int32_t small = static_cast<int32_t>(n);
+  if (small == n && d > 0) return small / d;
   const uint64_t size = quotient(magnitude(n), magnitude(d));
   return static_cast<int64_t>((n < 0) == (d < 0) ? size : 0U - size);
 }

@@ -25,19 +25,38 @@ constexpr uint32_t kSine[] = {1686629674, 693597876, 85564854, 5016767, 161942};
 constexpr uint32_t kArcTangent[] = {683565198, 227850059, 136616721, 96801258, 71767194,
                                     49455063,  27193166,  9844330,   1679347};
 
-[[gnu::always_inline]] constexpr uint32_t product_q30(uint32_t a, uint32_t b) noexcept {
-  return kMultipliesByParts ? scaled_product_by_parts<30>(a, b) : scaled_product<30>(a, b);
+/// Such a multiple of a factor makes the upper half of its product with a Q30.
+constexpr uint32_t kQ30Scale = kMultipliesByParts ? 1 : 4;
+/// To nearest, ties up. Without overflow; b < 2^31.
+[[gnu::always_inline]] constexpr uint32_t product_q30(uint32_t scaled_a, uint32_t b) noexcept {
+  if (kMultipliesByParts) return scaled_product_by_parts<30>(scaled_a, b);
+  const uint64_t whole = product(scaled_a, b);
+  return static_cast<uint32_t>(whole >> 32) + (static_cast<uint32_t>(whole) >> 31);
 }
 
-/// c[0] x - c[1] x^3 + c[2] x^5 - ... for x in [0, 1] as Q30, in the unit of the coefficients, which fall: so
+/// c[0] x - c[1] x^3 + c[2] x^5 - ... for x in [0, 1) as Q30, in the unit of the coefficients, which fall: so
 /// no sum is negative.
 template <size_t kTerms>
-constexpr int32_t odd_polynomial(const uint32_t (&c)[kTerms], uint32_t x_q30) noexcept {
-  const uint32_t square = product_q30(x_q30, x_q30);
+[[gnu::always_inline]] constexpr uint32_t odd_polynomial(const uint32_t (&c)[kTerms],
+                                                         uint32_t x_q30) noexcept {
+  const uint32_t scaled_x = kQ30Scale * x_q30;
+  const uint32_t scaled_square = kQ30Scale * product_q30(scaled_x, x_q30);
   uint32_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - product_q30(sum, square);
-  return static_cast<int32_t>(product_q30(sum, x_q30));
+  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - product_q30(scaled_square, sum);
+  return product_q30(scaled_x, sum);
 }
+
+/// The same for x = 1.
+template <size_t kTerms>
+constexpr uint32_t at_one(const uint32_t (&c)[kTerms]) noexcept {
+  uint32_t sum = 0;
+  for (size_t i = kTerms; i-- > 0;) sum = c[i] - sum;
+  return sum;
+}
+constexpr uint32_t kSineOfOne = at_one(kSine);
+constexpr uint32_t kArcTangentOfOne = at_one(kArcTangent);
+static_assert(kSineOfOne > Q30::kOne && kArcTangentOfOne - (UINT32_C(1) << 29) < 8);
+constexpr uint32_t kUnit = UINT32_C(1) << 30;
 
 [[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
   const uint32_t half = UINT32_C(1) << 31;
@@ -45,8 +64,8 @@ constexpr int32_t odd_polynomial(const uint32_t (&c)[kTerms], uint32_t x_q30) no
   const bool negative = a.raw() > half;
   uint32_t first_half = negative ? 0U - a.raw() : a.raw();
   if (first_half > quarter) first_half = half - first_half;
-  const int32_t s = odd_polynomial(kSine, first_half);
-  const int32_t capped = s > Q30::kOne ? Q30::kOne : s;
+  const uint32_t s = first_half == kUnit ? kSineOfOne : odd_polynomial(kSine, first_half);
+  const int32_t capped = s > kUnit ? Q30::kOne : static_cast<int32_t>(s);
   return Q30::from_raw(negative ? -capped : capped);
 }
 
@@ -57,7 +76,8 @@ constexpr int32_t odd_polynomial(const uint32_t (&c)[kTerms], uint32_t x_q30) no
   const uint32_t low = ax < ay ? ax : ay;
   const uint32_t high = ax < ay ? ay : ax;
   const uint64_t ratio = quotient((uint64_t{low} << 30) + high / 2, high);
-  uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<uint32_t>(ratio)));
+  uint32_t turn =
+      ratio == kUnit ? kArcTangentOfOne : odd_polynomial(kArcTangent, static_cast<uint32_t>(ratio));
   if (ax < ay) turn = (UINT32_C(1) << 30) - turn;
   if (x < 0) turn = (UINT32_C(1) << 31) - turn;
   return Angle::from_raw(y < 0 ? 0U - turn : turn);

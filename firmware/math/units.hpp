@@ -51,7 +51,7 @@ class Unit {
   }
   /// Rounded to nearest. k > 0, so the quotient fits.
   friend constexpr Unit operator/(Unit a, int32_t k) noexcept {
-    return from_raw(narrow<int32_t>(divide_rounded(a.raw_, k)));
+    return from_raw(divide_rounded_32(a.raw_, k));
   }
   constexpr Unit& operator+=(Unit b) noexcept { return *this = *this + b; }
   constexpr Unit& operator-=(Unit b) noexcept { return *this = *this - b; }

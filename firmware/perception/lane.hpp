@@ -20,7 +20,7 @@ class Lane {
   /// From the middle of the lane to its edge.
   /// `body`: what the body covers between two checked places.
   void configure(Length half_width, Length body) noexcept {
-    scale_.cell_um = half_width.raw() / (kRows / 2);
+    scale_ = GridScale(half_width.raw() / (kRows / 2));
     body_ = narrow<int16_t>(scale_.units(body));
     open_ = false;
   }
@@ -41,7 +41,7 @@ class Lane {
   bool holds(const Vec& from, const Vec& way, Length radius) const noexcept;
   /// For display and tests.
   bool is_clear(Vec at) const noexcept;
-  Length half_width() const noexcept { return Length::from_raw(scale_.cell_um * (kRows / 2)); }
+  Length half_width() const noexcept { return Length::from_raw(scale_.cell_um() * (kRows / 2)); }
 
  private:
   GridPoint local(Vec at) const noexcept;

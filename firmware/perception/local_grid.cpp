@@ -59,7 +59,7 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
 }
 
 void LocalGrid::configure(const Params& params) noexcept {
-  scale_.cell_um = grid_cell(params).raw();
+  scale_ = GridScale(grid_cell(params).raw());
   swept_ = rim_sweep(params).radius;
   clears_ = loses_walls(params.rangefinders) ? kScatterRange : 60_m;
   place_error_ = formula::place_error(params);
@@ -90,10 +90,7 @@ void LocalGrid::configure(const Params& params) noexcept {
 }
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
-  const auto from_corner = [this](Length x, int32_t corner) {
-    return scale_.units(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um, kOutermost);
-  };
-  return {from_corner(at.x, column_), from_corner(at.y, row_)};
+  return {scale_.units_from(column_, at.x), scale_.units_from(row_, at.y)};
 }
 
 void LocalGrid::drop_rows(int first, int count) noexcept {
@@ -129,9 +126,9 @@ void LocalGrid::reset(const Pose& pose) noexcept {
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
   // The body is behind the middle of the window, because the beams point ahead.
-  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(scale_.cell_um * kAhead));
+  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(scale_.cell_um() * kAhead));
   const auto corner = [this](Length x) {
-    return narrow<int32_t>(floor_div(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) - kCells / 2;
+    return narrow<int32_t>(floor_div(int64_t{x.raw()} + scale_.cell_um() / 2, scale_.cell_um())) - kCells / 2;
   };
   const int32_t right = corner(middle.x) - column_;
   const int32_t up = corner(middle.y) - row_;
@@ -322,7 +319,7 @@ bool LocalGrid::leaves_window(const Beam& beam, Point apex, Length farthest) con
   if (in_window(apex, units(farthest) + 2 * kUnitsPerCell)) return false;
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {
-    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
+    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um()));
     if (!in_window(local(beam.apex + end), 0)) return true;
   }
   return false;

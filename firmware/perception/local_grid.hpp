@@ -137,7 +137,7 @@ class LocalGrid {
   const Work& work() const noexcept { return work_; }
   void begin_tick() noexcept { work_.begin(); }
   /// The grid covers at most this distance from the body along each axis.
-  Length half_window() const noexcept { return Length::from_raw(scale_.cell_um * (kCells / 2)); }
+  Length half_window() const noexcept { return Length::from_raw(scale_.cell_um() * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are inside the window and clear.

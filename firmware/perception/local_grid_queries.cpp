@@ -32,12 +32,15 @@ class Fan {
       : ahead_(most),
         side_{{most, most}, {most, most}},
         radius_(radius),
+        touched_(radius + kCellCover),
+        touched_q14_(touched_ * Q14::kOne),
+        beyond_(touched_ * 6 / 5),
         first_q14_((abeam + 1) * Q14::kOne) {}
 
-  /// A suspect cell is here.
+  /// So far along, a cell is beside every way or behind it.
+  bool behind(int32_t x) const noexcept { return x <= -touched_; }
+  /// A suspect cell that is not behind is here.
   void meet(int32_t x, int32_t y) noexcept {
-    // So far behind, it is beside every way or behind it.
-    if (x <= -touched()) return;
     const int32_t aside = y < 0 ? -y : y;
     if (x >= 0) nearest_ = least(nearest_, distance_of(x, aside));
     const int32_t long_x = x * kCosine, short_x = x * kSine;
@@ -45,8 +48,7 @@ class Fan {
     Side& same = side_[y < 0];
     stop(same.at_30, long_x + short_y, long_y - short_x);
     stop(same.at_60, short_x + long_y, short_y - long_x);
-    // Beyond, no other way meets it: 1.2 is more than the secant of 30 degrees.
-    if (aside > touched() * 6 / 5) return;
+    if (aside > beyond_) return;
     Side& other = side_[y >= 0];
     stop(ahead_, x * Q14::kOne, aside * Q14::kOne);
     stop(other.at_30, long_x - short_y, long_y + short_x);
@@ -68,11 +70,12 @@ class Fan {
     int32_t farther() const noexcept { return at_30 > at_60 ? at_30 : at_60; }
   };
 
-  int32_t touched() const noexcept { return radius_ + kCellCover; }
   /// A way that is free so far meets a cell that lies so far along and beside it, 2^-14.
-  void stop(int32_t& free, int32_t along_q14, int32_t across_q14) const noexcept {
+  [[gnu::always_inline]] void stop(int32_t& free, int32_t along_q14, int32_t across_q14) const noexcept {
     const int32_t beside_q14 = across_q14 < 0 ? -across_q14 : across_q14;
-    if (beside_q14 >= touched() * Q14::kOne || along_q14 < first_q14_) return;
+    if (beside_q14 < touched_q14_ && along_q14 >= first_q14_) shorten(free, along_q14, beside_q14);
+  }
+  [[gnu::noinline]] void shorten(int32_t& free, int32_t along_q14, int32_t beside_q14) const noexcept {
     const int32_t along = along_q14 / Q14::kOne;
     const int32_t beyond = along - free;
     if (beyond >= radius_) return;
@@ -89,13 +92,16 @@ class Fan {
   Side side_[2];  // left, right
   int32_t nearest_ = INT32_MAX;
   int32_t radius_;
+  int32_t touched_;
+  int32_t touched_q14_;
+  int32_t beyond_;     // aside, a cell meets only ways of its side: 1.2 is more than the secant of 30 degrees
   int32_t first_q14_;  // cells less than this along a way are abeam of it
 };
 
 }  // namespace
 
 Length LocalGrid::length_of(int32_t units) const noexcept {
-  return Length::from_raw(saturate32(scale_down_by(int64_t{units} * scale_.cell_um, kUnitBits)));
+  return Length::from_raw(saturate32(scale_down_by(int64_t{units} * scale_.cell_um(), kUnitBits)));
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -172,19 +178,20 @@ Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexce
   if (slots == 0) return {all, all, all, 60_m};
   const Point start = local(from);
   const int32_t reach = most + meets_;
-  const Row box = Span::around(start.x, reach).columns();
+  const Row box = to_torus(Span::around(start.x, reach).columns());
   const int32_t c = q14(cos(course));
   const int32_t s = q14(sin(course));
   Fan fan(most, meets_, abeam());
   for (; slots != 0; slots &= slots - 1) {
     const int slot = lowest(slots);
-    const Row torus = met(slot);
-    if (torus == 0) continue;
+    const Row solid = box & solid_at(slot);
+    if (solid == 0) continue;
     const int32_t dy = offset((slot - row_) & (kCells - 1), start.y);
     if (dy > reach || dy < -reach) continue;
-    for (Row cells = box & to_window(torus); cells != 0; cells &= cells - 1) {
+    for (Row cells = to_window(solid & ~clear(slot)); cells != 0; cells &= cells - 1) {
       const int32_t dx = offset(lowest(cells), start.x);
-      fan.meet((dx * c + dy * s) / Q14::kOne, (dy * c - dx * s) / Q14::kOne);
+      const int32_t x = (dx * c + dy * s) / Q14::kOne;
+      if (!fan.behind(x)) fan.meet(x, (dy * c - dx * s) / Q14::kOne);
     }
   }
   const auto way = [&](int32_t free) { return free == most ? all : length_of(free); };

@@ -110,24 +110,22 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, const P
   heading_ = body.heading;
 }
 
-const BeamConditioner::Measurement& BeamConditioner::recent(int back) const noexcept {
-  const int place = newest_ - back;
-  return history_[place < 0 ? place + kHistory : place];
-}
+Length BeamConditioner::distance(int back) const noexcept { return recent(back).distance; }
 
 void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   // In a faster turn, the cone may meet a thin object in a single reading.
   const bool slow = magnitude(turned) <= beam_cone(params.rangefinders, beam_).raw() / kSlowParts;
   steady_ = !slow ? int8_t{0} : steady_ < kHistory ? static_cast<int8_t>(steady_ + 1) : steady_;
   if (count_ < kHistory || steady_ < kHistory) return;
-  const Length middle = recent(kHistory / 2).distance;
+  const Length last[kHistory] = {distance(0), distance(1), distance(2), distance(3), distance(4)};
+  const Length middle = last[kHistory / 2];
   const Length most = params.rangefinders.max_range;
   Length nearest = most;
   Length farthest;
   for (int i = 0; i < kHistory; ++i) {
     if (i == kHistory / 2) continue;
-    nearest = min(nearest, recent(i).distance);
-    farthest = max(farthest, recent(i).distance);
+    nearest = min(nearest, last[i]);
+    farthest = max(farthest, last[i]);
   }
   // Phantoms that surround a true reading differ.
   const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
@@ -139,12 +137,12 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool near = nearest > middle + kOdd;
   if (nearest > kRoom) follow(phantoms_, near, near || nearest == most ? kAveraged : kAveragedBeforeWall);
   if (echo) follow(misses_, farthest < middle - kOdd, kAveraged);
-  const Length before = recent(kHistory / 2 + 1).distance;
-  const Length after = recent(kHistory / 2 - 1).distance;
+  const Length before = last[kHistory / 2 + 1];
+  const Length after = last[kHistory / 2 - 1];
   const auto like = [](Length a, Length b) { return abs(a - b) <= kOdd; };
   // Two phantoms in a row may be alike, three hardly.
   const bool object = before < most - kOdd && like(before, after) &&
-                      (like(before, recent(kHistory - 1).distance) || like(after, recent(0).distance));
+                      (like(before, last[kHistory - 1]) || like(after, last[0]));
   if (object) follow(false_clear_share_, middle == most, kAveraged * 2);
 }
 
@@ -173,36 +171,39 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   constexpr int kTypical = 3;
   RecentReadings s;
   if (count_ < kNear) return s;
-  Length last[kHistory];
-  for (int i = 0; i < kNear; ++i) last[i] = recent(i).distance;
+  s.misses = misses_ > kFewMisses;
+  s.phantoms = phantoms_ > kFewPhantoms;
+  // The fifth may not be there, and is then not asked for.
+  const Length last[kHistory] = {distance(0), distance(1), distance(2), distance(3), distance(4)};
   const Length low = min(last[0], last[1]);
   const Length high = max(last[0], last[1]);
   const Length far = params.rangefinders.max_range;
-  bool agreed = true;
   Length median = max(low, min(high, last[kTypical - 1]));
-  Length nearest = min(min(low, last[2]), last[3]);
-  s.misses = misses_ > kFewMisses;
-  s.phantoms = phantoms_ > kFewPhantoms;
-  if (s.misses) nearest = min(nearest, recent(kNear).distance);
-  if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
-    last[kNear] = recent(kNear).distance;
+  const bool confirmable = s.phantoms && steady_ == kHistory && count_ == kHistory;
+  Length nearest;
+  bool agreed = true;
+  if (confirmable) {
     nearest = confirmed(last, far);
     agreed = nearest != kUndecided;
     median = agreed ? nearest : far;
   }
-  s.fresh = fresh_ && agreed;
+  s.typical = {median, validity_of(median, far)};
+  if (!fresh_ || !agreed) return s;
+  if (!confirmable) {
+    nearest = min(min(low, last[2]), last[3]);
+    if (s.misses) nearest = min(nearest, last[kNear]);
+  }
+  // Two that nothing confirms may be an object that has just come into view.
+  s.fresh = last[0] >= nearest || last[1] >= nearest;
   s.taken = history_[newest_].taken;
   s.oldest = recent(kNear - 1).taken;
+  s.near = {nearest, validity_of(nearest, far)};
+  s.single = last[0] == far || last[0] < nearest;
+  s.newest = {last[0], validity_of(last[0], far)};
   s.farthest = max(high, last[kTypical - 1]);
   s.measured =
       min(low, last[2]) > Length{} && s.farthest < far && (!s.phantoms || s.farthest - nearest <= kAlike);
   s.bend = abs(last[0] - last[1] * 2 + last[2]);
-  // Two that nothing confirms may be an object that has just come into view.
-  if (last[0] < nearest && last[1] < nearest) s.fresh = false;
-  s.single = last[0] == far || last[0] < nearest;
-  s.newest = {last[0], validity_of(last[0], far)};
-  s.near = {nearest, validity_of(nearest, far)};
-  s.typical = {median, validity_of(median, far)};
   return s;
 }
 

@@ -13,14 +13,15 @@
 
 namespace whisker::perception {
 
-/// Readings of a beam while the body moves.
+/// Readings of a beam while the body moves. Without a fresh one, only `typical`, `phantoms` and `misses` are
+/// there.
 struct RecentReadings {
-  bool fresh = false;     ///< a usable measurement arrived at this tick
-  Time taken;             ///< time of the newest measurement
-  Time oldest;            ///< time of the oldest measurement behind `near`
-  Echo near;              ///< the nearest of the last four: a single reading cannot make it far. If phantoms
-                          ///< are frequent, the nearest of the last five that others confirm
-  bool single = false;    ///< the newest measurement alone does not prove `near`: it is clear or a phantom
+  bool fresh = false;   ///< a usable measurement arrived at this tick, and the others confirm what they show
+  Time taken;           ///< time of the newest measurement
+  Time oldest;          ///< time of the oldest measurement behind `near`
+  Echo near;            ///< the nearest of the last four: a single reading cannot make it far. If phantoms
+                        ///< are frequent, the nearest of the last five that others confirm
+  bool single = false;  ///< the newest measurement alone does not prove `near`: it is clear or a phantom
   bool phantoms = false;  ///< phantoms are frequent
   bool misses = false;    ///< readings that miss an object are frequent
   Echo newest;            ///< the newest measurement
@@ -69,9 +70,12 @@ class BeamConditioner {
     Length distance;
     Time taken;
   };
-  /// The measurement this many before the newest; below kHistory. Not inline, because small chips have no
-  /// room.
-  [[gnu::noinline]] const Measurement& recent(int back) const noexcept;
+  /// The measurement this many before the newest; below kHistory.
+  [[gnu::noinline]] Length distance(int back) const noexcept;
+  const Measurement& recent(int back) const noexcept {
+    const int place = newest_ - back;
+    return history_[place < 0 ? place + kHistory : place];
+  }
   Validity classify(const hal::RangeReading& reading, const Pose& body, const Params& params,
                     Health& health) noexcept;
   bool is_stuck(const hal::RangeReading& reading, const Pose& body, const Params& params) noexcept;

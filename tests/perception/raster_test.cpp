@@ -1,5 +1,7 @@
 #include "firmware/perception/raster.hpp"
 
+#include "firmware/perception/grid_scale.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -280,6 +282,31 @@ TEST(Raster, StadiumTouchesWhatADiscSweepsAheadOfItsBeginning) {
     for (int row = 0; row < kCells; ++row) {
       if ((visited >> row & 1U) == 0) expect_row(0, inside_by, "row left out", seed, row, 0, 0);
       if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Cells of every size, at the lengths where the units change, and at those where the factors do.
+TEST(UnitsByProduct, AreThoseOfADivision) {
+  Random random(29);
+  for (int i = 0; i < 4000; ++i) {
+    const int bits = 12 + random.index(16);
+    const std::int32_t cell = i < 64    ? UnitsByProduct::kSmallest - 32 + i
+                              : i < 128 ? (1 << (13 + i % 14)) - i % 3
+                                        : (1 << bits) + random.index(1 << bits);
+    const UnitsByProduct units(cell);
+    const auto check = [&](std::int64_t um) {
+      if (um < 0 || um > UnitsByProduct::kNear) return;
+      std::int32_t rest = -1;
+      const std::int64_t n = um * kUnitsPerCell;
+      ASSERT_EQ(units.whole(static_cast<std::int32_t>(um), cell, rest), n / cell) << um << " um of " << cell;
+      ASSERT_EQ(rest, n % cell) << um << " um of " << cell;
+    };
+    for (std::int64_t edge = 0; edge < 3; ++edge) check(edge), check(UnitsByProduct::kNear - edge);
+    for (int k = 0; k < 200; ++k) {
+      const std::int64_t um = random.index(UnitsByProduct::kNear);
+      const std::int64_t step = um * kUnitsPerCell / cell * cell / kUnitsPerCell;
+      for (const std::int64_t at : {um, um / 64 * 64, um / 64 * 64 + 63, step, step + 1}) check(at);
     }
   }
 }

@@ -13,7 +13,7 @@ constexpr int8_t kEscapes = 6;
 constexpr int8_t kDoors = 3;           // tried in vain
 constexpr Angle kStraightOn = 20_deg;  // of a door from the way
 
-static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) <= 1816);
+static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) <= 1824);
 
 }  // namespace
 

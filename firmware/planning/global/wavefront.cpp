@@ -18,6 +18,8 @@ int32_t half_width(int32_t level, int32_t dy) noexcept {
 
 int32_t gap(int32_t x, int32_t size) noexcept { return x < 0 ? -x : x >= size ? x - size + 1 : 0; }
 
+uint64_t both(const GridWord* words) noexcept { return words[0] | uint64_t{words[1]} << kWordBits; }
+
 }  // namespace
 
 int32_t cell_distance(Cell d) noexcept {
@@ -133,6 +135,7 @@ class Wavefront::Rows {
         body_row_(map.holds(wavefront.task_.body) ? wavefront.task_.body.y : kNone),
         goal_row_(map.holds(wavefront.task_.goal) ? wavefront.task_.goal.y : kNone),
         words_(shape_.words) {
+    for (Row& r : row_) r.front[0] = r.open[0] = r.front[words_ + 1] = r.open[words_ + 1] = 0;
     begin_level();
   }
   Rows(const Rows&) = delete;
@@ -145,15 +148,25 @@ class Wavefront::Rows {
  private:
   /// The words of a row, with an empty word on either side.
   struct Row {
-    GridWord front[kMostWords + 2] = {};  ///< cells of the previous level
-    GridWord open[kMostWords + 2] = {};   ///< cells that do not block
-    GridWord fresh[kMostWords + 2] = {};  ///< open cells without a level
-    GridWord any = 0;                     ///< union of front
+    GridWord front[kMostWords + 2];  ///< cells of the previous level
+    GridWord open[kMostWords + 2];   ///< cells that do not block
+    GridWord fresh[kMostWords + 2];  ///< open cells without a level
+    GridWord any;                    ///< union of front
+  };
+
+  /// The two words of a row as one; most maps are so wide.
+  struct Pair {
+    uint64_t front, open, fresh;
   };
 
   void read(int32_t row, Row& to) const noexcept;
+  void read(int32_t row, Pair& to) noexcept;
+  [[gnu::noinline]] void read_apart(int32_t row, Pair& to) noexcept;
   [[gnu::noinline]] void stand_out(Cell at, Row& to) const noexcept;
   void spread(int32_t row, const Row& above, const Row& here, const Row& below) noexcept;
+  /// Whether it adds a cell.
+  bool spread(int32_t row, const Pair& above, const Pair& here, const Pair& below) noexcept;
+  void spread_pairs(int32_t row, int32_t end) noexcept;
   [[gnu::noinline]] GridWord entering(int32_t row, int w, GridWord fresh) const noexcept;
   /// In this row, open cells of a side that the wavefront enters have no level.
   bool enters(int32_t row, const Row& here) const noexcept {
@@ -257,7 +270,72 @@ GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noe
   return border & columns(goal.x - half, goal.x + half, w);
 }
 
+/// A row in which a cell stands out.
+void Wavefront::Rows::read_apart(int32_t row, Pair& to) noexcept {
+  Row& apart = row_[0];
+  read(row, apart);
+  to = {both(apart.front + 1), both(apart.open + 1), both(apart.fresh + 1)};
+}
+
+inline void Wavefront::Rows::read(int32_t row, Pair& to) noexcept {
+  if (static_cast<uint32_t>(row) >= static_cast<uint32_t>(shape_.rows)) {
+    to = {0, 0, 0};
+    return;
+  }
+  if (row == goal_row_ || row == body_row_) {
+    read_apart(row, to);
+    return;
+  }
+  const auto twice = [](GridWord word) { return word | uint64_t{word} << kWordBits; };
+  const int32_t first = 2 * row;
+  const uint64_t high = both(high_ + first), low = both(low_ + first);
+  const uint64_t open = ~(both(blocking_ + first) & (both(sure_ + first) | twice(any_state_)));
+  to = {(high ^ twice(not_high_)) & (low ^ twice(not_low_)) & open, open, open & ~(high | low)};
+}
+
+inline bool Wavefront::Rows::spread(int32_t row, const Pair& above, const Pair& here,
+                                    const Pair& below) noexcept {
+  if (here.fresh == 0) return false;
+  const auto beside = [](uint64_t cells) { return cells << 1 | cells >> 1; };
+  uint64_t news = beside(here.front) | above.front | below.front;
+  if (diagonal_) {
+    news |= beside(above.front & here.open) & above.open;
+    news |= beside(below.front & here.open) & below.open;
+  }
+  news &= here.fresh;
+  if (news == 0) return false;
+  for (int w = 0; w < 2; ++w) {
+    const auto part = static_cast<GridWord>(news >> (w * kWordBits));
+    high_[2 * row + w] |= part & in_high_;
+    low_[2 * row + w] |= part & in_low_;
+  }
+  return true;
+}
+
+void Wavefront::Rows::spread_pairs(int32_t row, int32_t end) noexcept {
+  Pair pair[3];
+  Pair *above = pair, *here = pair + 1, *below = pair + 2;
+  int32_t first = -1, last = -1;
+  for (int32_t next = row - 1; next <= end; ++next) {
+    Pair* const oldest = above;
+    above = here;
+    here = below;
+    below = oldest;
+    read(next, *below);
+    if (next <= row || !spread(next - 1, *above, *here, *below)) continue;
+    last = next - 1;
+    if (first < 0) first = last;
+  }
+  if (last < 0) return;
+  if (first < wavefront_.new_low_) wavefront_.new_low_ = first;
+  wavefront_.new_high_ = last;
+}
+
 void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
+  if (words_ == 2 && !enters_) {
+    spread_pairs(row, end);
+    return;
+  }
   Row* above = &row_[0];
   Row* here = &row_[1];
   Row* below = &row_[2];

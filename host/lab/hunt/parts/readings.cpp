@@ -129,21 +129,24 @@ class Beam {
   std::string judge_sight() const {
     const perception::RecentReadings s = core_.sight(p_);
     if (all_.size() < 4) return s.fresh ? "fresh without readings" : "";
+    std::int32_t three[] = {back(0), back(1), back(2)};
+    const std::int32_t bend = std::abs(three[0] - 2 * three[1] + three[2]);
+    std::sort(three, three + 3);
+    const bool plain = !s.phantoms && !s.misses;
+    if (plain && !same(s.typical, echo(three[1]))) return "the typical one is another one";
+    if (plain && s.fresh != arrived_) return "fresh or not";
+    if (!s.fresh) return "";
     if (s.taken.raw() != static_cast<std::uint32_t>(all_.back().taken_ms)) return "taken at another time";
     if (s.oldest.raw() != static_cast<std::uint32_t>(all_[all_.size() - 4].taken_ms))
       return "the oldest is another one";
     if (!same(s.newest, echo(back(0)))) return "the newest is another one";
-    std::int32_t three[] = {back(0), back(1), back(2)};
-    if (s.bend.raw() != std::abs(three[0] - 2 * three[1] + three[2])) return "another bend";
-    std::sort(three, three + 3);
+    if (s.bend.raw() != bend) return "another bend";
     if (s.farthest.raw() != three[2]) return "the farthest is another one";
-    if (s.phantoms || s.misses) return "";
+    if (!plain) return "";
     if (s.measured != (three[0] > 0 && three[2] < most_)) return "measured or not";
     const std::int32_t nearest = std::min(three[0], back(3));
     if (!same(s.near, echo(nearest))) return "the nearest is another one";
-    if (!same(s.typical, echo(three[1]))) return "the typical one is another one";
-    if (s.single != (back(0) == most_)) return "alone or not";
-    return s.fresh == arrived_ ? "" : "fresh or not";
+    return s.single == (back(0) == most_) ? "" : "alone or not";
   }
 
   Dice& dice_;
