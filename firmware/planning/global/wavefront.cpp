@@ -135,7 +135,6 @@ class Wavefront::Rows {
         body_row_(map.holds(wavefront.task_.body) ? wavefront.task_.body.y : kNone),
         goal_row_(map.holds(wavefront.task_.goal) ? wavefront.task_.goal.y : kNone),
         words_(shape_.words) {
-    for (Row& r : row_) r.front[0] = r.open[0] = r.front[words_ + 1] = r.open[words_ + 1] = 0;
     begin_level();
   }
   Rows(const Rows&) = delete;
@@ -160,13 +159,15 @@ class Wavefront::Rows {
   };
 
   void read(int32_t row, Row& to) const noexcept;
-  void read(int32_t row, Pair& to) noexcept;
-  [[gnu::noinline]] void read_apart(int32_t row, Pair& to) noexcept;
+  void read(int32_t row, Pair& to) const noexcept;
+  [[gnu::noinline]] void read_apart(int32_t row, Pair& to) const noexcept;
   [[gnu::noinline]] void stand_out(Cell at, Row& to) const noexcept;
   void spread(int32_t row, const Row& above, const Row& here, const Row& below) noexcept;
   /// Whether it adds a cell.
   bool spread(int32_t row, const Pair& above, const Pair& here, const Pair& below) noexcept;
-  void spread_pairs(int32_t row, int32_t end) noexcept;
+  // Apart, so that the stack holds the rows of one of them.
+  [[gnu::noinline]] void spread_pairs(int32_t row, int32_t end) noexcept;
+  [[gnu::noinline]] void spread_words(int32_t row, int32_t end) noexcept;
   [[gnu::noinline]] GridWord entering(int32_t row, int w, GridWord fresh) const noexcept;
   /// In this row, open cells of a side that the wavefront enters have no level.
   bool enters(int32_t row, const Row& here) const noexcept {
@@ -185,7 +186,6 @@ class Wavefront::Rows {
   const int32_t body_row_;
   const int32_t goal_row_;
   const int words_;
-  Row row_[3];
   // State of the level:
   bool diagonal_ = false;
   bool enters_ = false;  // across a side of the window:
@@ -271,13 +271,13 @@ GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noe
 }
 
 /// A row in which a cell stands out.
-void Wavefront::Rows::read_apart(int32_t row, Pair& to) noexcept {
-  Row& apart = row_[0];
+void Wavefront::Rows::read_apart(int32_t row, Pair& to) const noexcept {
+  Row apart;
   read(row, apart);
   to = {both(apart.front + 1), both(apart.open + 1), both(apart.fresh + 1)};
 }
 
-inline void Wavefront::Rows::read(int32_t row, Pair& to) noexcept {
+inline void Wavefront::Rows::read(int32_t row, Pair& to) const noexcept {
   if (static_cast<uint32_t>(row) >= static_cast<uint32_t>(shape_.rows)) {
     to = {0, 0, 0};
     return;
@@ -332,13 +332,13 @@ void Wavefront::Rows::spread_pairs(int32_t row, int32_t end) noexcept {
 }
 
 void Wavefront::Rows::spread(int32_t row, int32_t end) noexcept {
-  if (words_ == 2 && !enters_) {
-    spread_pairs(row, end);
-    return;
-  }
-  Row* above = &row_[0];
-  Row* here = &row_[1];
-  Row* below = &row_[2];
+  words_ == 2 && !enters_ ? spread_pairs(row, end) : spread_words(row, end);
+}
+
+void Wavefront::Rows::spread_words(int32_t row, int32_t end) noexcept {
+  Row rows[3];
+  for (Row& r : rows) r.front[0] = r.open[0] = r.front[words_ + 1] = r.open[words_ + 1] = 0;
+  Row *above = rows, *here = rows + 1, *below = rows + 2;
   for (int32_t next = row - 1; next <= end; ++next) {
     Row* const oldest = above;
     above = here;
