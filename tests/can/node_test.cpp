@@ -481,7 +481,7 @@ TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
   EXPECT_EQ(base_.state(), NodeState::safe_stop);
 }
 
-// From before it was on the bus: `whisker bench watch --nodes` asks a node without a partner in the partner's place.
+// `whisker bench watch --nodes` asks a node without a partner in the partner's place.
 TEST_F(BaseAlone, AQuestionInItsNameIsNoTwin) {
   start();
   bus::ScriptedNode survey{wire_, 9};
