@@ -13,7 +13,7 @@ import tempfile
 SEEDS = 400
 # part, file of the core, text, planted text
 PLANTED = (
-    ("wavefront", "planning/global/wavefront.cpp", "diagonal_ = wavefront_.level_ % 2 == 0", "diagonal_ = wavefront_.level_ % 2 == 1"),
+    ("wavefront", "planning/global/wavefront_run.cpp", "diagonal_ = wavefront_.level_ % 2 == 0", "diagonal_ = wavefront_.level_ % 2 == 1"),
     ("map", "planning/global/grid_map.cpp", "kUnitsPerCell * 23 / 32", "kUnitsPerCell * 3 / 32"),
     ("window", "planning/global/grid_map.cpp", "old(w + skip) >> shift", "old(w + skip) << shift"),
     ("raster", "perception/raster.cpp", "end_y_ < 0 ? Rows(y_ + end_y_, y_, reach)", "end_y_ < 0 ? Rows(y_, y_, reach)"),
