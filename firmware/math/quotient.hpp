@@ -93,7 +93,7 @@ constexpr int64_t quotient(int64_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d != 0);
   // Most numerators are small, and 32-bit division is much faster on most chips. INT32_MIN / -1 has no room.
   const int32_t small = static_cast<int32_t>(n);
-  if (small == n && d > 0) return small / d;
+  if (small == n && d != -1) return small / d;
   const uint64_t size = quotient(magnitude(n), magnitude(d));
   return static_cast<int64_t>((n < 0) == (d < 0) ? size : 0U - size);
 }

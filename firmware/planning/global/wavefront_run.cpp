@@ -170,7 +170,7 @@ GridWord Wavefront::Rows::entering(int32_t row, int w, GridWord fresh) const noe
 
 /// A row in which a cell stands out.
 void Wavefront::Rows::read_apart(int32_t row, Pair& to) const noexcept {
-  Row apart;
+  Row apart;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills what is taken from it
   read(row, apart);
   to = {both(apart.front + 1), both(apart.open + 1), both(apart.fresh + 1)};
 }
