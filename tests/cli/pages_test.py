@@ -32,7 +32,7 @@ class Pages(Case):
                 for option in re.findall(r"(?<!\S)--[a-z-]+", rest):
                     checked += 1
                     self.assertRegex(help_of(*words), rf"(?<![\w-]){option}(?![\w-])", (page.name, words))
-        self.assertGreater(checked, 60)
+        self.assertGreater(checked, 90)
 
     def test_show_what_the_commands_print(self):
         shown = [(page.name, *found) for page in PAGES for found in SHOWN.findall(page.read_text())]
