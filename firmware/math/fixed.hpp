@@ -36,6 +36,9 @@ constexpr int32_t saturating_subtract(int32_t a, int32_t b) noexcept {
 /// -x, with -INT32_MIN == INT32_MAX.
 constexpr int32_t saturating_negate(int32_t x) noexcept { return x == INT32_MIN ? INT32_MAX : -x; }
 
+/// x > INT32_MIN.
+constexpr int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
+
 /// The number whose two's complement this is.
 constexpr int32_t as_signed(uint32_t raw) noexcept {
   return raw <= INT32_MAX ? static_cast<int32_t>(raw) : -static_cast<int32_t>(~raw) - 1;
@@ -121,13 +124,7 @@ constexpr bool kMultipliesByParts = false;
   return uint64_t{high} << 32 | (second << 16 | (low & UINT16_MAX));
 }
 
-/// a * b / 2^kBits to nearest, ties up; it must fit.
-template <int kBits>
-[[gnu::always_inline]] constexpr uint32_t scaled_product(uint32_t a, uint32_t b) noexcept {
-  static_assert(kBits > 0 && kBits <= 32);
-  return narrow<uint32_t>((product(a, b) + (UINT64_C(1) << (kBits - 1))) >> kBits);
-}
-/// The same by products of 16 bits. a, b < 2^31.
+/// a * b / 2^kBits to nearest, ties up, by products of 16 bits; it must fit. a, b < 2^31.
 template <int kBits>
 [[gnu::always_inline]] constexpr uint32_t scaled_product_by_parts(uint32_t a, uint32_t b) noexcept {
   static_assert(kBits > 16 && kBits <= 32);
@@ -197,10 +194,9 @@ using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
 constexpr int16_t q14(Q30 x) noexcept { return narrow<int16_t>(scale_down<16>(x.raw())); }
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
-static_assert(scaled_product<4>(3, 8) == 2 && scaled_product<4>(23, 1) == 1);
 static_assert(scaled_product_by_parts<30>(INT32_MAX, UINT32_C(1) << 30) == INT32_MAX);
 static_assert(scaled_product_by_parts<30>(1686629674, 1073741823) ==
-              scaled_product<30>(1686629674, 1073741823));
+              (product(1686629674, 1073741823) + (UINT64_C(1) << 29)) >> 30);
 static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);
 static_assert(scale_down<4>(INT32_C(24)) == 2 && scale_down<4>(INT32_C(-24)) == -2);
 

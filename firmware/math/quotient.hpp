@@ -41,18 +41,15 @@ constexpr int leading_zeros(uint32_t x) noexcept {
   return __builtin_clzl(x) - static_cast<int>(8 * (sizeof(unsigned long) - sizeof x));
 }
 
-/// n / d of numbers as most are: a quotient of the upper 32 bits, then one of the rest.
-constexpr bool in_two_parts(uint64_t n, uint32_t d) noexcept { return n >> 47 == 0 && d >> 17 == 0; }
-constexpr uint64_t quotient_of_two_parts(uint64_t n, uint32_t d) noexcept {
-  const uint32_t part = static_cast<uint32_t>(n >> 15);
-  const uint32_t upper = part / d;
-  const uint32_t rest = (part - upper * d) << 15 | (static_cast<uint32_t>(n) & 0x7FFF);
-  return (uint64_t{upper} << 15) + rest / d;
-}
-
 /// n / d from 32-bit quotients.
 [[gnu::noinline]] constexpr uint64_t quotient_by_parts(uint64_t n, uint32_t d) noexcept {
-  if (in_two_parts(n, d)) return quotient_of_two_parts(n, d);
+  // Most numerators have 47 bits and most denominators 17: a quotient of the upper 32, then one of the rest.
+  if (n >> 47 == 0 && d >> 17 == 0) {
+    const uint32_t part = static_cast<uint32_t>(n >> 15);
+    const uint32_t whole = part / d;
+    const uint32_t below = (part - whole * d) << 15 | (static_cast<uint32_t>(n) & 0x7FFF);
+    return (uint64_t{whole} << 15) + below / d;
+  }
   if (kDividesSlowly) return n / d;
   const uint32_t high = static_cast<uint32_t>(n >> 32);
   const uint32_t upper = high / d;

@@ -56,7 +56,7 @@ constexpr uint32_t at_one(const uint32_t (&c)[kTerms]) noexcept {
 constexpr uint32_t kSineOfOne = at_one(kSine);
 constexpr uint32_t kArcTangentOfOne = at_one(kArcTangent);
 static_assert(kSineOfOne > Q30::kOne && kArcTangentOfOne - (UINT32_C(1) << 29) < 8);
-constexpr uint32_t kUnit = UINT32_C(1) << 30;
+constexpr uint32_t kUnit = Q30::kOne;
 
 [[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
   const uint32_t half = UINT32_C(1) << 31;

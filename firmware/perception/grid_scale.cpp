@@ -27,13 +27,13 @@ int32_t UnitsByProduct::whole(int32_t um, int32_t cell_um, int32_t& rest) const 
   return found;
 }
 
-int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
+int32_t GridScale::far_units(int64_t um, int32_t most) const noexcept {
   return within(floor_div(um * kUnitsPerCell, cell_um_), most);
 }
 
 int32_t GridScale::units_from(int32_t corner, Length x) const noexcept {
   const int64_t off = int64_t{x.raw()} - int64_t{corner} * cell_um_;
-  if (off >= UnitsByProduct::kNear || off < -UnitsByProduct::kNear) return units(off, kOutermost);
+  if (off >= UnitsByProduct::kNear || off < -UnitsByProduct::kNear) return far_units(off, kOutermost);
   const auto um = static_cast<int32_t>(off);
   if (kDividesSlowly) {
     int32_t rest = 0;
@@ -47,7 +47,7 @@ int32_t GridScale::units_from(int32_t corner, Length x) const noexcept {
 
 int32_t GridScale::units(Length l) const noexcept {
   const int32_t um = l.raw();
-  if (um < 0 || um >= UnitsByProduct::kNear) return units(um, kLongest);
+  if (um < 0 || um >= UnitsByProduct::kNear) return far_units(um, kLongest);
   int32_t rest = 0;
   const int32_t whole =
       kDividesSlowly ? by_product_.whole(um, cell_um_, rest) : um * kUnitsPerCell / cell_um_;

@@ -34,14 +34,15 @@ class GridScale {
       : cell_um_(cell_um), by_product_(kDividesSlowly ? cell_um : 0) {}
   int32_t cell_um() const noexcept { return cell_um_; }
 
-  /// Rounded down; within -most..most.
-  int32_t units(int64_t um, int32_t most) const noexcept;
-  /// l >= 0.
+  /// Rounded down, at most kLongest. l >= 0.
   int32_t units(Length l) const noexcept;
-  /// Of a coordinate, from that of the corner of a cell; within -kOutermost..kOutermost.
+  /// Of a coordinate, from the corner of the cell with this number; rounded down, within
+  /// -kOutermost..kOutermost.
   int32_t units_from(int32_t corner, Length x) const noexcept;
 
  private:
+  int32_t far_units(int64_t um, int32_t most) const noexcept;
+
   int32_t cell_um_;
   UnitsByProduct by_product_;
 };

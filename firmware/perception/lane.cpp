@@ -29,8 +29,8 @@ void Lane::age() noexcept {
 
 GridPoint Lane::local(Vec at) const noexcept {
   const Vec off = at - from_.at;
-  return {scale_.units(along(off, from_.heading).raw(), kOutermost),
-          scale_.units(-across(off, from_.heading).raw(), kOutermost) + kRows / 2 * kUnitsPerCell};
+  return {scale_.units_from(0, along(off, from_.heading)),
+          scale_.units_from(0, -across(off, from_.heading)) + kRows / 2 * kUnitsPerCell};
 }
 
 void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,

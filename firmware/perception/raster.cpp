@@ -6,8 +6,6 @@
 namespace whisker::perception {
 namespace {
 
-int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
-
 /// Chord of the disc around x in a row at distance dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};

@@ -6,8 +6,6 @@ namespace {
 constexpr int32_t kBeyond = 6;   // levels past the body's, for the cells around the body
 constexpr int32_t kDetour = 20;  // levels: extra cost of a detour outside the window
 
-int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
-
 int32_t gap(int32_t x, int32_t size) noexcept { return x < 0 ? -x : x >= size ? x - size + 1 : 0; }
 
 }  // namespace

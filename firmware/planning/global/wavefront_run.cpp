@@ -5,8 +5,6 @@ namespace {
 
 constexpr int32_t kLevelWords = 3;  // that the end of a level takes as long as
 
-int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
-
 /// Half width of the row dy from the goal within the area that `level` levels cover; negative: none.
 int32_t half_width(int32_t level, int32_t dy) noexcept {
   const int32_t rest = level + level / 2 - absolute(dy);
