@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {execFile, spawn} from 'node:child_process';
 import {once} from 'node:events';
-import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {existsSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {createInterface} from 'node:readline';
@@ -118,29 +118,31 @@ async function listed(words, hands, ...options) {
   const folder = mkdtempSync(join(tmpdir(), 'whisker-selftest-'));
   const file = join(folder, 'selftest.json');
   let status = null;
+  const lines = [];
   await beside(words, async (cable, tell) => {
-    // A slow computer needs seconds until the robot has started and the host knows its port.
-    for (let i = 0, nodes = ''; i < TRIES && !/controller [^]*base /.test(nodes); i++) {
-      await sleep(BETWEEN_MS);
-      nodes = await said(`build/host/whisker bench watch --nodes --tty ${cable}`);
-    }
     const [program, ...command] = block('selftest')[0].replace('$CABLE', cable).split(' ');
-    const bench = spawn(program, [...command, '--out', file, ...options], {cwd: ROOT});
-    bench.stdout.resume();
-    const ended = once(bench, 'close');
-    for await (const line of createInterface({input: bench.stderr})) {
-      const sensor = /hold a hand .* the (\w+) sensor/.exec(line)?.[1];
-      const wheel = /turn the (\w+) wheel/.exec(line)?.[1];
-      if (/Press Enter/.test(line)) bench.stdin.end(hands ? '\n' : '');
-      if (!hands) continue;
-      tell('hand');
-      if (sensor !== undefined) {
-        await sleep(1000);
-        tell(`hand ${['left', 'front', 'right'].indexOf(sensor)}`);
-      } else if (wheel !== undefined) tell(`wheel ${['left', 'right'].indexOf(wheel)} 400`);
+    // Without a file, it has not met both nodes: a slow computer needs seconds until the robot has started.
+    for (let i = 0; i < TRIES && !existsSync(file); i++) {
+      await sleep(BETWEEN_MS * (i + 1));
+      const bench = spawn(program, [...command, '--out', file, ...options], {cwd: ROOT});
+      bench.stdout.resume();
+      const ended = once(bench, 'close');
+      for await (const line of createInterface({input: bench.stderr})) {
+        lines.push(line);
+        const sensor = /hold a hand .* the (\w+) sensor/.exec(line)?.[1];
+        const wheel = /turn the (\w+) wheel/.exec(line)?.[1];
+        if (/Press Enter/.test(line)) bench.stdin.end(hands ? '\n' : '');
+        if (!hands) continue;
+        tell('hand');
+        if (sensor !== undefined) {
+          await sleep(1000);
+          tell(`hand ${['left', 'front', 'right'].indexOf(sensor)}`);
+        } else if (wheel !== undefined) tell(`wheel ${['left', 'right'].indexOf(wheel)} 400`);
+      }
+      [status] = await ended;
     }
-    [status] = await ended;
   });
+  assert.ok(existsSync(file), lines.join('\n'));
   const result = JSON.parse(readFileSync(file));
   rmSync(folder, {recursive: true});
   return {...result, status};
