@@ -10,7 +10,14 @@ Reach reach(const Params& p) noexcept { return formula::reach(p); }
 }  // namespace at_run_time
 
 Length for_body(const Params& p, Length reference) noexcept {
-  return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));
+  constexpr uint32_t kReference = 90000, kEven = 4;
+  // Divided by 2^kEven first, almost all products have 32 bits.
+  const uint64_t whole = product(magnitude(reference.raw()), magnitude(p.body.radius.raw())) + kReference / 2;
+  if (whole >> (32 + kEven) != 0) {
+    return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), kReference));
+  }
+  const auto part = static_cast<int32_t>(static_cast<uint32_t>(whole >> kEven) / (kReference >> kEven));
+  return Length::from_raw(reference.raw() < 0 ? -part : part);
 }
 
 }  // namespace whisker

@@ -85,7 +85,7 @@ void Odometry::advance(const CountStep& step, Angle turn) noexcept {
 
 int64_t Odometry::difference(const CountStep& step) const noexcept {
   const int64_t difference = int64_t{step.right - step.left} * 4096;
-  return difference + scale_down<12>(int64_t{skew_.share} * (step.right + step.left));
+  return difference + scale_down<12>(signed_product(skew_.share, step.right + step.left));
 }
 
 Angle Odometry::turn_of(int64_t difference) const noexcept {

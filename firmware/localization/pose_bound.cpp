@@ -134,10 +134,10 @@ void PoseBound::gather() noexcept {
   for (Lasting& error : lasting_) {
     if (error.heading == 0) continue;
     heading_ += scale_down<16>(square(error.heading));
-    x_heading_ += scale_down<12>(int64_t{error.x} * error.heading);
-    y_heading_ += scale_down<12>(int64_t{error.y} * error.heading);
+    x_heading_ += scale_down<12>(signed_product(error.x, error.heading));
+    y_heading_ += scale_down<12>(signed_product(error.y, error.heading));
     xx_ += scale_down<8>(square(error.x));
-    xy_ += scale_down<8>(int64_t{error.x} * error.y);
+    xy_ += scale_down<8>(signed_product(error.x, error.y));
     yy_ += scale_down<8>(square(error.y));
     error = {};
   }
@@ -184,8 +184,8 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
   const int32_t y = narrow<int32_t>(limited(way.y.raw(), kMostMove));
   const BiasFilter::Covariance grows = bias_.step(x, y, milliseconds(elapsed_ms_), step.by_gyro && moved);
   if (!moved || !known_) return;
-  const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);
-  const int64_t forward = scale_down<16>(int64_t{counts_} * um_per_counts_);
+  const int64_t turned = scale_down<16>(signed_product((step.pose.heading - last_.heading).wrapped(), 25736));
+  const int64_t forward = scale_down<16>(signed_product(counts_, um_per_counts_));
   int64_t by[kLastings] = {};
   if (step.by_gyro) {
     by[kGyroScale] = scale_down<30>(turned * gyro_scale_);
@@ -201,8 +201,8 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
     error.heading = saturating_add(error.heading, by[i]);
   }
   Lasting& scale = lasting_[kScale];
-  scale.x = saturating_add(scale.x, scale_down<26>(int64_t{x} * scale_));
-  scale.y = saturating_add(scale.y, scale_down<26>(int64_t{y} * scale_));
+  scale.x = saturating_add(scale.x, scale_down<26>(signed_product(x, scale_)));
+  scale.y = saturating_add(scale.y, scale_down<26>(signed_product(y, scale_)));
 
   const int64_t walked =
       step.by_gyro ? int64_t{walk_per_ms_} * elapsed_ms_ : (forward < 0 ? -forward : forward) * walk_per_um_;
@@ -244,7 +244,7 @@ PoseSigma PoseBound::sigma() const noexcept {
   int64_t yy = yy_ + kFloor;
   const auto add = [&](const Place& error) {
     xx += scale_down<8>(square(error.x));
-    xy += scale_down<8>(int64_t{error.x} * error.y);
+    xy += scale_down<8>(signed_product(error.x, error.y));
     yy += scale_down<8>(square(error.y));
   };
   for (const Lasting& error : lasting_) add(error);

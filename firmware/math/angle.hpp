@@ -47,8 +47,8 @@ constexpr uint32_t magnitude(Angle a) noexcept { return magnitude(a.wrapped()); 
 /// The wrapped angle times a factor, rounded to nearest; the product must stay within half a turn.
 template <int kFraction, class Rep>
 constexpr Angle scaled(Angle a, Fixed<kFraction, Rep> k) noexcept {
-  const int64_t product = scale_down<kFraction>(int64_t{a.wrapped()} * k.raw());
-  return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(product)));
+  const int64_t turn = scale_down<kFraction>(signed_product(a.wrapped(), k.raw()));
+  return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(turn)));
 }
 
 /// The arc length of a point at this radius; the angle is taken in [-1/2, 1/2) turn. |radius| <= 600 m.

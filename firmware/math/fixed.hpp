@@ -56,6 +56,38 @@ constexpr int32_t saturate32(int64_t x) noexcept {
   return saturate32(a + b);
 }
 
+#if defined(__ARM_ARCH_6M__)
+constexpr bool kMultipliesByParts = true;  // the product of 32 bits by 32 is a call of the compiler's library
+#else
+constexpr bool kMultipliesByParts = false;
+#endif
+
+/// a * b by products of 16 bits.
+[[gnu::always_inline]] constexpr uint64_t unsigned_by_parts(uint32_t a, uint32_t b) noexcept {
+  const uint32_t a_low = a & UINT16_MAX, a_high = a >> 16, b_low = b & UINT16_MAX, b_high = b >> 16;
+  const uint32_t low = a_low * b_low;
+  const uint32_t first = a_high * b_low + (low >> 16);
+  const uint32_t second = a_low * b_high + (first & UINT16_MAX);
+  const uint32_t high = a_high * b_high + (first >> 16) + (second >> 16);
+  return uint64_t{high} << 32 | (second << 16 | (low & UINT16_MAX));
+}
+
+[[gnu::noinline]] constexpr int64_t signed_by_parts(int32_t a, int32_t b) noexcept {
+  const auto raw_a = static_cast<uint32_t>(a), raw_b = static_cast<uint32_t>(b);
+  const uint64_t raw = unsigned_by_parts(raw_a, raw_b);
+  // A negative factor's raw value is 2^32 too large.
+  const uint32_t high = static_cast<uint32_t>(raw >> 32) - (a < 0 ? raw_b : 0) - (b < 0 ? raw_a : 0);
+  return static_cast<int64_t>(uint64_t{high} << 32 | static_cast<uint32_t>(raw));
+}
+
+/// a * b.
+[[gnu::always_inline]] constexpr uint64_t product(uint32_t a, uint32_t b) noexcept {
+  return kMultipliesByParts ? unsigned_by_parts(a, b) : uint64_t{a} * b;
+}
+constexpr int64_t signed_product(int32_t a, int32_t b) noexcept {
+  return kMultipliesByParts ? signed_by_parts(a, b) : int64_t{a} * b;
+}
+
 /// |x| < 2^31.5.
 constexpr int64_t square(int64_t x) noexcept {
   WHISKER_ASSERT(x >= -INT64_C(3037000499) && x <= INT64_C(3037000499));
@@ -107,23 +139,6 @@ constexpr int32_t scale_down(int32_t x) noexcept {
   return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
 }
 
-#if defined(__ARM_ARCH_6M__)
-constexpr bool kMultipliesByParts = true;  // the product of 32 bits by 32 is a call of the compiler's library
-#else
-constexpr bool kMultipliesByParts = false;
-#endif
-
-/// a * b.
-[[gnu::always_inline]] constexpr uint64_t product(uint32_t a, uint32_t b) noexcept {
-  if (!kMultipliesByParts) return uint64_t{a} * b;
-  const uint32_t a_low = a & UINT16_MAX, a_high = a >> 16, b_low = b & UINT16_MAX, b_high = b >> 16;
-  const uint32_t low = a_low * b_low;
-  const uint32_t first = a_high * b_low + (low >> 16);
-  const uint32_t second = a_low * b_high + (first & UINT16_MAX);
-  const uint32_t high = a_high * b_high + (first >> 16) + (second >> 16);
-  return uint64_t{high} << 32 | (second << 16 | (low & UINT16_MAX));
-}
-
 /// a * b / 2^kBits to nearest, ties up, by products of 16 bits; it must fit. a, b < 2^31.
 template <int kBits>
 [[gnu::always_inline]] constexpr uint32_t scaled_product_by_parts(uint32_t a, uint32_t b) noexcept {
@@ -138,7 +153,7 @@ template <int kBits>
 
 /// a * b / c to nearest, saturating. c > 0.
 constexpr int32_t multiply_divide(int32_t a, int32_t b, int32_t c) noexcept {
-  return saturate32(divide_rounded(static_cast<int64_t>(a) * b, c));
+  return saturate32(divide_rounded(signed_product(a, b), c));
 }
 
 /// A number with kFraction binary places in an integer of type Rep; arithmetic saturates.
@@ -155,7 +170,7 @@ class Fixed {
   }
   /// numerator / denominator to nearest. denominator > 0.
   static constexpr Fixed ratio(int32_t numerator, int32_t denominator) noexcept {
-    return from_raw(clamp(divide_rounded(static_cast<int64_t>(numerator) * kOne, denominator)));
+    return from_raw(clamp(divide_rounded(signed_product(numerator, kOne), denominator)));
   }
   constexpr Rep raw() const noexcept { return raw_; }
 
@@ -173,7 +188,7 @@ class Fixed {
     return from_raw(clamp(int64_t{a.raw_} - b.raw_));
   }
   friend constexpr Fixed operator*(Fixed a, Fixed b) noexcept {
-    return from_raw(clamp(scale_down<kFraction>(int64_t{a.raw_} * b.raw_)));
+    return from_raw(clamp(scale_down<kFraction>(signed_product(a.raw_, b.raw_))));
   }
 
  private:

@@ -41,15 +41,26 @@ constexpr int leading_zeros(uint32_t x) noexcept {
   return __builtin_clzl(x) - static_cast<int>(8 * (sizeof(unsigned long) - sizeof x));
 }
 
+/// Whether quotient_in_two() has room.
+template <int kPlaces>
+constexpr bool fits_two(uint64_t n, uint32_t d) noexcept {
+  return n >> (32 + kPlaces) == 0 && d >> (32 - kPlaces) == 0;
+}
+/// n / d: a quotient of the upper 32 bits, then one of the rest with so many places.
+template <int kPlaces>
+constexpr uint64_t quotient_in_two(uint64_t n, uint32_t d) noexcept {
+  const uint32_t part = static_cast<uint32_t>(n >> kPlaces);
+  const uint32_t whole = part / d;
+  const uint32_t places = static_cast<uint32_t>(n) & ((UINT32_C(1) << kPlaces) - 1);
+  const uint32_t below = (part - whole * d) << kPlaces | places;
+  return (uint64_t{whole} << kPlaces) + below / d;
+}
+
 /// n / d from 32-bit quotients.
 [[gnu::noinline]] constexpr uint64_t quotient_by_parts(uint64_t n, uint32_t d) noexcept {
-  // Most numerators have 47 bits and most denominators 17: a quotient of the upper 32, then one of the rest.
-  if (n >> 47 == 0 && d >> 17 == 0) {
-    const uint32_t part = static_cast<uint32_t>(n >> 15);
-    const uint32_t whole = part / d;
-    const uint32_t below = (part - whole * d) << 15 | (static_cast<uint32_t>(n) & 0x7FFF);
-    return (uint64_t{whole} << 15) + below / d;
-  }
+  // Nearly all numerators and denominators are so small.
+  if (fits_two<14>(n, d)) return quotient_in_two<14>(n, d);
+  if (fits_two<10>(n, d)) return quotient_in_two<10>(n, d);
   if (kDividesSlowly) return n / d;
   const uint32_t high = static_cast<uint32_t>(n >> 32);
   const uint32_t upper = high / d;

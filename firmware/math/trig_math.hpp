@@ -34,6 +34,17 @@ constexpr uint32_t kQ30Scale = kMultipliesByParts ? 1 : 4;
   return static_cast<uint32_t>(whole >> 32) + (static_cast<uint32_t>(whole) >> 31);
 }
 
+/// c[kFrom] - c[kFrom + 1] x^2 + ..., without a loop.
+template <size_t kFrom, size_t kTerms>
+[[gnu::always_inline]] constexpr uint32_t alternating(const uint32_t (&c)[kTerms],
+                                                      uint32_t scaled_square) noexcept {
+  if constexpr (kFrom + 1 == kTerms) {
+    return c[kFrom];
+  } else {
+    return c[kFrom] - product_q30(scaled_square, alternating<kFrom + 1>(c, scaled_square));
+  }
+}
+
 /// c[0] x - c[1] x^3 + c[2] x^5 - ... for x in [0, 1) as Q30, in the unit of the coefficients, which fall: so
 /// no sum is negative.
 template <size_t kTerms>
@@ -41,6 +52,7 @@ template <size_t kTerms>
                                                          uint32_t x_q30) noexcept {
   const uint32_t scaled_x = kQ30Scale * x_q30;
   const uint32_t scaled_square = kQ30Scale * product_q30(scaled_x, x_q30);
+  if (!kMultipliesByParts) return product_q30(scaled_x, alternating<0>(c, scaled_square));
   uint32_t sum = c[kTerms - 1];
   for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - product_q30(scaled_square, sum);
   return product_q30(scaled_x, sum);
@@ -163,9 +175,8 @@ template <bool kDivides>
 }
 
 constexpr uint64_t squared(Vec v) noexcept {
-  const uint64_t x = magnitude(v.x.raw());
-  const uint64_t y = magnitude(v.y.raw());
-  return x * x + y * y;
+  const uint32_t x = magnitude(v.x.raw()), y = magnitude(v.y.raw());
+  return product(x, x) + product(y, y);
 }
 
 [[gnu::always_inline]] constexpr Length norm(const Vec& v) noexcept {
@@ -174,8 +185,8 @@ constexpr uint64_t squared(Vec v) noexcept {
 }
 
 [[gnu::always_inline]] constexpr bool farther(const Vec& v, Length length) noexcept {
-  const uint64_t beyond = uint64_t{magnitude(length.raw())} + 1;
-  return length < Length{} || squared(v) >= beyond * beyond;
+  const uint32_t beyond = magnitude(length.raw()) + 1;
+  return length < Length{} || squared(v) >= product(beyond, beyond);
 }
 
 [[gnu::always_inline]] constexpr Vec polar(Angle direction, Length length) noexcept {
@@ -183,8 +194,8 @@ constexpr uint64_t squared(Vec v) noexcept {
 }
 
 [[gnu::always_inline]] constexpr Length along(const Vec& v, Facing direction) noexcept {
-  const int64_t x = scale_down<4>(int64_t{v.x.raw()} * direction.cos.raw());
-  const int64_t y = scale_down<4>(int64_t{v.y.raw()} * direction.sin.raw());
+  const int64_t x = scale_down<4>(signed_product(v.x.raw(), direction.cos.raw()));
+  const int64_t y = scale_down<4>(signed_product(v.y.raw(), direction.sin.raw()));
   return Length::from_raw(saturate32(scale_down<26>(x + y)));
 }
 

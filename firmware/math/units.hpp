@@ -42,12 +42,12 @@ class Unit {
     return from_raw(saturating_subtract(a.raw_, b.raw_));
   }
   friend constexpr Unit operator*(Unit a, int32_t k) noexcept {
-    return from_raw(saturate32(int64_t{a.raw_} * k));
+    return from_raw(saturate32(signed_product(a.raw_, k)));
   }
   /// Times a fixed-point factor, rounded to nearest.
   template <int kFraction, class Rep>
   friend constexpr Unit operator*(Unit a, Fixed<kFraction, Rep> k) noexcept {
-    return from_raw(saturate32(scale_down<kFraction>(int64_t{a.raw_} * k.raw())));
+    return from_raw(saturate32(scale_down<kFraction>(signed_product(a.raw_, k.raw()))));
   }
   /// Rounded to nearest. k > 0, so the quotient fits.
   friend constexpr Unit operator/(Unit a, int32_t k) noexcept {
@@ -113,7 +113,10 @@ class Time {
 };
 
 constexpr Length micrometres(int32_t um) noexcept { return Length::from_raw(um); }
-constexpr Length millimetres(int32_t mm) noexcept { return Length::from_raw(1000) * mm; }
+constexpr Length millimetres(int32_t mm) noexcept {
+  constexpr int32_t kMost = INT32_MAX / 1000;
+  return Length::from_raw(mm > kMost ? INT32_MAX : mm < -kMost ? INT32_MIN : mm * 1000);
+}
 constexpr Duration milliseconds(int32_t ms) noexcept { return Duration::from_raw(ms); }
 constexpr Ratio millionths(int32_t ppm) noexcept { return Ratio::from_raw(ppm); }
 

@@ -32,7 +32,7 @@ int32_t GridScale::far_units(int64_t um, int32_t most) const noexcept {
 }
 
 int32_t GridScale::units_from(int32_t corner, Length x) const noexcept {
-  const int64_t off = int64_t{x.raw()} - int64_t{corner} * cell_um_;
+  const int64_t off = int64_t{x.raw()} - signed_product(corner, cell_um_);
   if (off >= UnitsByProduct::kNear || off < -UnitsByProduct::kNear) return far_units(off, kOutermost);
   const auto um = static_cast<int32_t>(off);
   if (kDividesSlowly) {

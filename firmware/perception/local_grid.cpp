@@ -248,7 +248,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     if (suspects) {
       // Near the apex, the cone holds no cell.
       echoes = struck.columns(dy);
-      suspect_[s] |= to_torus(struck.from(free - kCellCover, echoes, dy)) & ~(young_[s] | old_[s]);
+      suspect(s, to_torus(struck.from(free - kCellCover, echoes, dy)) & ~(young_[s] | old_[s]));
     }
     if ((covered & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span empty = inside;
@@ -262,10 +262,10 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     suspect_[s] &= ~clear;
     untest(s, clear);
     const Row unproved = covered & ~(young_[s] | old_[s]);
-    if (observation.aimed) tested_[s] |= unproved;
+    if (observation.aimed) test(s, unproved);
     if (observation.hit && unproved != 0) {
       if (!suspects) echoes = struck.columns(dy);
-      suspect_[s] |= to_torus(echoes) & unproved;
+      suspect(s, to_torus(echoes) & unproved);
     }
   }
 }
@@ -309,7 +309,8 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
     const int s = slot(row);
     young_[s] &= ~taken;
     old_[s] &= ~taken;
-    suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
+    suspect_[s] &= ~taken;
+    suspect(s, taken & to_torus(echo.columns()));
     untest(s, taken);
   }
 }
@@ -326,10 +327,10 @@ bool LocalGrid::leaves_window(const Beam& beam, Point apex, Length farthest) con
 }
 
 bool LocalGrid::echo_arc(const Beam& beam, Point apex, Length nearest, Length farthest, bool takes) noexcept {
+  if (!takes && leaves_window(beam, apex, farthest)) return false;
   const Point body = local(last_.at);
   const EchoArc arc{Wedge(beam.axis, beam.half_cone), units(nearest - kReadingRounding),
                     units(farthest) + (takes ? kUnitsPerCell : explains_)};
-  if (!takes && leaves_window(beam, apex, farthest)) return false;
   const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
   work_.add(kArcUnits);
   Rows rows = arc.rows(apex.y);
@@ -390,7 +391,7 @@ void LocalGrid::block(Vec centre, Length radius) noexcept {
     const Row taken = to_torus(touched.columns() & ~under.columns());
     young_[s] &= ~taken;
     old_[s] &= ~taken;
-    suspect_[s] |= taken;
+    suspect(s, taken);
   }
 }
 

@@ -167,8 +167,15 @@ class LocalGrid {
   Row solid_row(int row) const noexcept { return to_window(solid_at(slot(row))); }
   /// Suspect cells that are not clear.
   Row met(int slot) const noexcept { return solid_at(slot) & ~clear(slot); }
-  /// The slots with suspect cells, one bit each.
-  Row suspect_slots() const noexcept;
+  void suspect(int slot, Row cells) noexcept {
+    if (cells == 0) return;
+    suspect_[slot] |= cells;
+    solid_slots_ |= Row{1} << slot;
+  }
+  void test(int slot, Row cells) noexcept {
+    tested_[slot] |= cells;
+    solid_slots_ |= Row{1} << slot;
+  }
   Row tested(int slot) const noexcept { return tested_[slot]; }
   void untest(int slot, Row cells) noexcept { tested_[slot] &= ~cells; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
@@ -273,6 +280,8 @@ class LocalGrid {
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
   Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  // The slots with cells of either, one bit each; others, too, until ways() looks there.
+  mutable Row solid_slots_ = 0;
   Lane lane_;
 };
 

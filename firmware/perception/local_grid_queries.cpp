@@ -110,10 +110,10 @@ bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
 
 Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length radius,
                            int32_t enough) const noexcept {
-  Obstacles found;
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
   const Row box = to_torus(stadium.box());
+  int32_t suspect = 0, unknown = 0;
   // The cells whose middle is not right of the start.
   const Row left = Span{-kUnitsPerCell, start.x + kHalfCell - 1}.columns();
   int32_t nearest = INT32_MAX;
@@ -126,10 +126,10 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
     work_.add(kPathRowUnits);
     const Row blocked = to_window(unclear) & stadium.columns(rows.row());
     const Row solid = blocked & solid_row(rows.row());
-    found.suspect += bits(solid);
-    if (found.suspect >= enough) break;
+    suspect += bits(solid);
+    if (suspect >= enough) break;
     const Row open = blocked & ~solid;
-    found.unknown += bits(open);
+    unknown += bits(open);
     const int32_t dy = rows.offset(start.y);
     const auto look_at = [&](int cell) {
       const int32_t dx = offset(cell, start.x);
@@ -142,8 +142,8 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
     if ((open & left) != 0) look_at(kCells - 1 - leading_zeros(open & left));
     if ((open & ~left) != 0) look_at(lowest(open & ~left));
   }
-  if (found.unknown > 0) found.nearest_unknown = {length_of(nearest_unknown.x), length_of(nearest_unknown.y)};
-  return found;
+  if (unknown == 0) return {0, suspect, {}};
+  return {unknown, suspect, {length_of(nearest_unknown.x), length_of(nearest_unknown.y)}};
 }
 
 int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length, Length radius,
@@ -162,29 +162,21 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
   return found;
 }
 
-Row LocalGrid::suspect_slots() const noexcept {
-  const auto any = [this](int s) { return suspect_[s] | tested_[s]; };
-  Row found = 0;
-  for (int s = 0; s < kCells; s += 4) {
-    if ((any(s) | any(s + 1) | any(s + 2) | any(s + 3)) != 0) found |= Row{15} << s;
-  }
-  return found;
-}
-
 Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexcept {
   const int32_t most = units(horizon);
   const Length all = length_of(most);
-  Row slots = suspect_slots();
-  if (slots == 0) return {all, all, all, 60_m};
+  if (solid_slots_ == 0) return {all, all, all, 60_m};
   const Point start = local(from);
   const int32_t reach = most + meets_;
   const Row box = to_torus(Span::around(start.x, reach).columns());
   const int32_t c = q14(cos(course));
   const int32_t s = q14(sin(course));
   Fan fan(most, meets_, abeam());
-  for (; slots != 0; slots &= slots - 1) {
+  for (Row slots = solid_slots_; slots != 0; slots &= slots - 1) {
     const int slot = lowest(slots);
-    const Row solid = box & solid_at(slot);
+    const Row all_solid = solid_at(slot);
+    if (all_solid == 0) solid_slots_ &= ~(Row{1} << slot);
+    const Row solid = box & all_solid;
     if (solid == 0) continue;
     const int32_t dy = offset((slot - row_) & (kCells - 1), start.y);
     if (dy > reach || dy < -reach) continue;

@@ -50,6 +50,7 @@ void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBea
   scan.hits = hits;
   for (int i = 0; i < kBeams; ++i) {
     scan.free[i] = narrow<uint16_t>(min(free[i], kFarthest).raw() / kUm);
+    if (i == 0 || scan.free[i] > scan.free[scan.farthest]) scan.farthest = static_cast<uint8_t>(i);
   }
 }
 
@@ -86,9 +87,8 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
     if ((among >> (n * kBeams) & kOfScan) == 0) continue;
     const Scan& scan = scan_[n];
     const Vec way = point - scan.at;
-    uint16_t free = 0;
-    for (const uint16_t f : scan.free) free = f > free ? f : free;
-    if (farther(way, min(kFarthest, outermost_ + Length::from_raw(free * kUm)))) continue;
+    const Length free = Length::from_raw(scan.free[scan.farthest] * kUm);
+    if (farther(way, min(kFarthest, outermost_ + free))) continue;
     const Near off = Near::of(way);
     const Near seen{off.along(scan.facing), off.aside(scan.facing)};
     bool turned = false;

@@ -63,6 +63,7 @@ class MotionDetector {
     Roughly facing;              // the same direction
     uint16_t free[kBeams] = {};  // 1/8 mm
     uint8_t hits = 0;            // as in add()
+    uint8_t farthest = 0;        // the beam with the largest `free`
   };
   struct Near;
   /// The kept sectors that contain this point.

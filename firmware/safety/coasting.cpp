@@ -46,9 +46,8 @@ int32_t Coasting::divisor(Length track, Length allowed) const noexcept {
 /// The most that the way is off one arc. Two ways over the same times of rolling and following differ, by
 /// Green's theorem, by the curl of the motion times the area between them, here at most half the rectangle.
 int64_t Coasting::bend_um(Length track) const noexcept {
-  const auto part = [](Speed v) { return int64_t{v.raw() / 256}; };
-  const int64_t curl =
-      part(rolling_.right) * part(command_.left) - part(rolling_.left) * part(command_.right);
+  const auto area = [](Speed a, Speed b) { return signed_product(a.raw() / 256, b.raw() / 256); };
+  const int64_t curl = area(rolling_.right, command_.left) - area(rolling_.left, command_.right);
   if (curl == 0) return 0;
   const int64_t um_per_s2 = quotient((curl < 0 ? -curl : curl) * 65536, track.raw());
   const int64_t um_per_s = quotient(um_per_s2 * lag_us_, 1000000);

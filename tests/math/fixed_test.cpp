@@ -81,6 +81,14 @@ TEST(Units, ProductsHaveTheRightUnitAndSaturate) {
   EXPECT_EQ(abs(Length::from_raw(INT32_MIN)).raw(), INT32_MAX);
 }
 
+TEST(Units, MillimetresSaturate) {
+  EXPECT_EQ(millimetres(-7), micrometres(-7000));
+  EXPECT_EQ(millimetres(2'147'483), micrometres(2'147'483'000));
+  EXPECT_EQ(millimetres(2'147'484), micrometres(INT32_MAX));
+  EXPECT_EQ(millimetres(-2'147'483), micrometres(-2'147'483'000));
+  EXPECT_EQ(millimetres(-2'147'484), micrometres(INT32_MIN));
+}
+
 TEST(Units, TimeWrapsAndDifferencesSurviveIt) {
   for (const std::uint32_t start : {0U, 5U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFBU}) {
     for (const std::int32_t gap : {0, 1, 10, -1, -10, INT32_MAX, INT32_MIN}) {
@@ -126,6 +134,28 @@ std::vector<std::uint64_t> edges() {
     for (const std::uint64_t x : {power - 1, power, power + 1, 0U - power}) all.push_back(x);
   }
   return all;
+}
+
+TEST(Product, ByPartsIsThatOfTheHostAtAllEdges) {
+  const auto all = edges();
+  for (const std::uint64_t x : all) {
+    for (const std::uint64_t y : all) {
+      const auto a = static_cast<std::uint32_t>(x), b = static_cast<std::uint32_t>(y);
+      ASSERT_EQ(unsigned_by_parts(a, b), std::uint64_t{a} * b) << a << " * " << b;
+      const std::int32_t c = as_signed(a), d = as_signed(b);
+      ASSERT_EQ(signed_by_parts(c, d), std::int64_t{c} * d) << c << " * " << d;
+    }
+  }
+}
+
+TEST(Product, ByPartsIsThatOfTheHostAtRandom) {
+  std::mt19937_64 random(seed());
+  for (std::uint64_t i = 0; i < test::effort(333'334, 200'000'000); ++i) {
+    const auto a = static_cast<std::uint32_t>(random()), b = static_cast<std::uint32_t>(random());
+    if (unsigned_by_parts(a, b) != std::uint64_t{a} * b) FAIL() << a << " * " << b;
+    const std::int32_t c = as_signed(a), d = as_signed(b);
+    if (signed_by_parts(c, d) != std::int64_t{c} * d) FAIL() << c << " * " << d;
+  }
 }
 
 TEST(Quotient, IsThatOfTheHostAtAllEdges) {

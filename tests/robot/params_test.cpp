@@ -26,6 +26,19 @@ static_assert(check(with_track(2001_mm)) == ParamFault::out_of_range);
 
 TEST(Params, TheDefaultsAreAccepted) { EXPECT_EQ(check(Params{}), ParamFault::none); }
 
+TEST(Params, LengthsForABodyAreInProportionToItsRadius) {
+  Params p;
+  for (std::int32_t radius = 1; radius <= 600'000; radius += radius / 50 + 1) {
+    p.body.radius = micrometres(radius);
+    for (std::int32_t um = 1; um <= 60'000'000; um += um / 40 + 1) {
+      const std::int32_t expected = multiply_divide(um, radius, 90'000);
+      ASSERT_EQ(for_body(p, micrometres(um)).raw(), expected) << um << " for " << radius;
+      ASSERT_EQ(for_body(p, micrometres(-um)).raw(), -expected) << -um << " for " << radius;
+    }
+  }
+  EXPECT_EQ(for_body(p, Length{}), Length{});
+}
+
 struct Broken {
   ParamFault fault;
   std::function<void(Params&)> apply;

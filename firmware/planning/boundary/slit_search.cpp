@@ -31,14 +31,13 @@ void SlitSearch::look(const View& view, Angle ahead) noexcept {
   const Params& params = behaviours_.params;
   // Where beams must sweep past a cell to clear it, the passage cannot clear a lane.
   if (view.local_grid->reach().past != Angle{} || attempts_ == kAttempts) return;
-  const Length length = for_body(params, GapPassage::kSeenFrom);
-  const auto path = [&](Length left) {
-    const Vec from = view.pose.at + polar(ahead + 90_deg, for_body(params, left));
-    return view.local_grid->along(from, ahead, length, for_body(params, kHalfWidth), 1);
-  };
-  const perception::Obstacles middle = path(Length{});
+  const Length length = for_body(params, GapPassage::kSeenFrom), half_width = for_body(params, kHalfWidth);
+  const auto path = [&](Vec from) { return view.local_grid->along(from, ahead, length, half_width, 1); };
+  const perception::Obstacles middle = path(view.pose.at);
   if (middle.suspect != 0 || middle.unknown > kUnknown) return;
-  const auto blocked = [&](Length beside) { return path(beside).suspect != 0; };
+  const auto blocked = [&](Length left) {
+    return path(view.pose.at + polar(ahead + 90_deg, for_body(params, left))).suspect != 0;
+  };
   if (!blocked(kJamb) || !blocked(-kJamb)) return;
   const Vec at = view.pose.at + polar(ahead, length);
   if (tried(at)) return;
@@ -63,12 +62,14 @@ void SlitSearch::look_on_boundary(const View& view, Side wall) noexcept {
 
 uint8_t SlitSearch::within(const View& view, Length reference) const noexcept {
   const Params& params = behaviours_.params;
+  const Length before = for_body(params, GapPassage::kSeenFrom), nearby = for_body(params, reference);
   uint32_t found = 0;
   for (int i = 0; i < kKept; ++i) {
-    const Vec from = slits_[i].at - polar(slits_[i].heading, for_body(params, GapPassage::kSeenFrom));
-    if (!farther(view.pose.at - from, for_body(params, reference))) found |= 1U << i;
+    if ((known_ >> i & 1U) == 0) continue;
+    const Vec from = slits_[i].at - polar(slits_[i].heading, before);
+    if (!farther(view.pose.at - from, nearby)) found |= 1U << i;
   }
-  return static_cast<uint8_t>(found & known_);
+  return static_cast<uint8_t>(found);
 }
 
 bool SlitSearch::expected(const View& view) noexcept {

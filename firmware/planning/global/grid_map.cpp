@@ -59,7 +59,7 @@ struct GridMap::Box {
 };
 
 int32_t GridMap::units(Length l) const noexcept {
-  return saturate32(floor_div(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
+  return saturate32(floor_div(signed_product(l.raw(), kUnitsPerCell), cell_um_));
 }
 
 void GridMap::configure(const Params& params) noexcept {
@@ -75,7 +75,7 @@ Cell GridMap::place(Vec at) const noexcept {
 
 Vec GridMap::middle(Cell p) const noexcept {
   const auto at = [this](int32_t n) {
-    return Length::from_raw(saturate32(int64_t{n} * cell_um_ + cell_um_ / 2));
+    return Length::from_raw(saturate32(signed_product(n, cell_um_) + cell_um_ / 2));
   };
   const Cell world = p + corner_;
   return {at(world.x), at(world.y)};
@@ -233,7 +233,8 @@ int32_t GridMap::mark(const perception::ConeObservation& observation, const Hold
                       bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
-    return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
+    return saturate32(
+        floor_div((int64_t{x.raw()} - signed_product(corner, cell_um_)) * kUnitsPerCell, cell_um_));
   };
   const int32_t x = from_corner(beam.apex.x, corner_.x);
   const int32_t y = from_corner(beam.apex.y, corner_.y);
