@@ -112,10 +112,10 @@ const Status& Robot::tick(Time now) noexcept {
 }
 
 bool Robot::localize(Time now, planning::View& view) noexcept {
-  if (!chassis_.take_time(now)) settled_since_ = now;
+  if (!chassis_.take_time(now)) settled_since_ = waits_since_ = now;
   const Chassis::Counted counted = chassis_.take_counts();
   if (counted == Chassis::Counted::corrected && has_goal_) aim_again();
-  if (motion_.settled() && !was_settled_) settled_since_ = now;
+  if (motion_.settled() && !was_settled_) settled_since_ = waits_since_ = now;
   was_settled_ = motion_.settled();
   const WheelPair rolling = chassis_.wheels().rolling;
   view.pose = chassis_.pose();
@@ -213,7 +213,9 @@ void Robot::ask_planner(const planning::View& view) noexcept {
   }
   motion_.begin(decision.manoeuvre, view.pose);
   const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
-  chassis_.supervisor().check_look(waits, chassis_.now() - settled_since_);
+  // It waits for its search, not for the readings.
+  if (view.local_grid->work().is_cut_short()) waits_since_ = chassis_.now();
+  chassis_.supervisor().check_look(waits, chassis_.now() - waits_since_);
   chassis_.supervisor().check_place(view.pose.at, running, view.elapsed);
 }
 
@@ -231,7 +233,7 @@ bool Robot::rests_for_gyro() noexcept {
     bias.postpone();
   }
   // The look at the surroundings starts again: a planner that waits for it has only waited since now.
-  if (resting) settled_since_ = chassis_.now();
+  if (resting) settled_since_ = waits_since_ = chassis_.now();
   resting_for_ = Duration{};
   return false;
 }

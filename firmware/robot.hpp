@@ -133,6 +133,7 @@ class Robot {
   hal::Bumper* bumper_;
 
   Time settled_since_;
+  Time waits_since_;       // for a look: since then it stands and no search has run out of time
   Duration resting_for_;   // for the gyro
   bool has_goal_ = false;  // a mission is active
   bool was_settled_ = false;

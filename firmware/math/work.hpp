@@ -17,6 +17,8 @@ class Work {
   static constexpr int32_t kTick = 600;
   /// but neither before it has done this much, however much the tick did before.
   static constexpr int32_t kLeast = 60;
+  /// No tick does more: `whisker hunt` looks for one that does.
+  static constexpr int32_t kMost = 3000;
 
   /// A tick begins.
   void begin() noexcept { done_ = until_ = 0; }
@@ -27,9 +29,15 @@ class Work {
   uint16_t done() const noexcept { return done_; }
   /// What searches may still do; zero or less: they wait for the next tick. Without begin_searches(), they
   /// need not wait.
-  int32_t left() const noexcept { return until_ == 0 ? INT16_MAX : static_cast<int16_t>(until_ - done_); }
+  int32_t left() const noexcept {
+    return until_ == 0 ? INT16_MAX : static_cast<int16_t>((until_ & ~kCutShort) - done_);
+  }
+  /// A search waits for the next tick: so it is until begin_rest().
+  void cut_short() const noexcept { until_ |= kCutShort; }
+  bool is_cut_short() const noexcept { return (until_ & kCutShort) != 0; }
 
  private:
+  static constexpr uint16_t kCutShort = 0x8000;  // of until_
   void limit(int32_t most) const noexcept {
     until_ = static_cast<uint16_t>(done_ < most - kLeast ? most : done_ + kLeast);
   }

@@ -17,6 +17,7 @@ class Share {
   bool more() noexcept {
     const bool is = first_ || work_.left() > 0;
     first_ = false;
+    if (!is) work_.cut_short();
     return is;
   }
 
