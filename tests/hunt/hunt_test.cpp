@@ -211,6 +211,17 @@ TEST(Corpus, KeepsTheNearestOfANicheAndNewStates) {
   outcome.closeness = 0.05;
   EXPECT_EQ(corpus.niche("kind", outcome), "kind");
   EXPECT_EQ(Corpus(folder.path()).size(), 2U);
+  corpus.keep("kind", c, outcome);
+  // The dearest tick of a kind has a niche of its own, and so has what becomes of it.
+  outcome.work = Work::kMost * 8 / 10;
+  EXPECT_EQ(corpus.niche("kind", outcome), "kind-dear");
+  corpus.keep("kind-dear", c, outcome);
+  EXPECT_EQ(corpus.niche("kind", outcome), "");
+  outcome.closeness = 5;
+  ++outcome.work;
+  EXPECT_EQ(corpus.niche("kind", outcome), "kind-dear");
+  EXPECT_EQ(corpus.niche("kind-dear", outcome), "kind-dear");
+  EXPECT_EQ(Corpus(folder.path()).size(), 3U);
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "firmware/math/work.hpp"
 
 namespace whisker::hunt {
 namespace {
@@ -12,11 +15,22 @@ namespace {
 constexpr std::size_t kMost = 400;
 constexpr double kNear = 0.3;  // radii
 constexpr int kPicks = 4;      // of which the nearest is changed
+// Niches of the most work in a tick.
+constexpr std::string_view kDear = "-dear";
 
 std::string file_name(std::string niche) {
   std::replace_if(
       niche.begin(), niche.end(), [](char c) { return c == '/' || c == ' '; }, '-');
   return niche;
+}
+
+bool is_dear(std::string_view niche) {
+  return niche.size() > kDear.size() && niche.substr(niche.size() - kDear.size()) == kDear;
+}
+
+/// To a violation of what the niche is for.
+double closeness(const std::string& niche, const Outcome& outcome) {
+  return is_dear(niche) ? 1 - static_cast<double>(outcome.work) / Work::kMost : outcome.closeness;
 }
 
 }  // namespace
@@ -36,18 +50,23 @@ std::string Corpus::niche(const std::string& kind, const Outcome& outcome) const
   for (const std::string& state : outcome.states) {
     if (states_.count(state) == 0 && kept_.size() < kMost) return file_name("state-" + state);
   }
-  if (outcome.closeness > kNear) return "";
-  const auto found = kept_.find(file_name(kind));
-  if (found == kept_.end()) return kept_.size() < kMost ? file_name(kind) : "";
-  return outcome.closeness < found->second.closeness ? found->first : "";
+  std::string name = file_name(kind);
+  for (;; name += kDear) {
+    const auto found = kept_.find(name);
+    const bool known = found != kept_.end();
+    const double least = known ? found->second.closeness : kNear;
+    if ((known || kept_.size() < kMost) && closeness(name, outcome) < least) return name;
+    if (is_dear(name)) return "";
+  }
 }
 
 void Corpus::keep(const std::string& niche, const Case& c, const Outcome& outcome) {
   states_.insert(outcome.states.begin(), outcome.states.end());
   const auto other = kept_.find(niche);
   // Another job may have found a nearer one meanwhile.
-  if (other != kept_.end() && other->second.closeness <= outcome.closeness) return;
-  kept_.insert_or_assign(niche, Kept{c, outcome.closeness});
+  const double near = closeness(niche, outcome);
+  if (other != kept_.end() && other->second.closeness <= near) return;
+  kept_.insert_or_assign(niche, Kept{c, near});
   if (!folder_.empty()) save(c, folder_ + "/" + niche);
 }
 

@@ -46,6 +46,7 @@ void judge(Row& row, const Outcome& outcome) {
   row.path_m = outcome.path_m;
   row.gap_m = outcome.gap_m;
   row.closeness = outcome.closeness;
+  row.work = outcome.work;
   row.hash = outcome.hash;
 }
 
@@ -221,6 +222,7 @@ class Hunt {
   void keep(const Parts& parts, const Row& row) {
     Outcome outcome;
     outcome.closeness = row.closeness;
+    outcome.work = row.work;
     const std::string& states = parts.at(5);
     for (std::size_t from = 0; from < states.size();) {
       const std::size_t end = states.find('\n', from);

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "firmware/math/work.hpp"
 #include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/error.hpp"
 
@@ -20,8 +21,8 @@ namespace {
 
 constexpr const char* kColumnNames =
     "seed,parent,family,world,driver,families_drawn,families_accepted,keys_drawn,keys_accepted,end,finding,"
-    "time_s,path_m,gap_m,closeness,hash";
-constexpr std::size_t kColumns = 16;
+    "time_s,path_m,gap_m,closeness,work,hash";
+constexpr std::size_t kColumns = 17;
 constexpr std::size_t kNearest = 5;
 
 std::vector<std::string> split(const std::string& line) {
@@ -60,7 +61,8 @@ Row row_of(const std::vector<std::string>& w) {
   row.path_m = std::stod(w[12]);
   row.gap_m = std::stod(w[13]);
   row.closeness = std::stod(w[14]);
-  row.hash = whole(w[15], 16);
+  row.work = std::stoi(w[15]);
+  row.hash = whole(w[16], 16);
   return row;
 }
 
@@ -152,6 +154,15 @@ std::string nearest_table(std::vector<Row> rows) {
   return text;
 }
 
+std::string dearest(const std::vector<Row>& rows) {
+  const auto most =
+      std::max_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.work < b.work; });
+  if (most == rows.end() || most->work == 0) return "";
+  return fmt::format("most work in a tick: {} of {} units, seed {}{}, {}, {}, {}\n", most->work, Work::kMost,
+                     most->seed, most->parent.empty() ? "" : " changed", most->driver, most->family,
+                     most->world);
+}
+
 }  // namespace
 
 bool harms(const std::string& finding) {
@@ -160,10 +171,10 @@ bool harms(const std::string& finding) {
 }
 
 std::string to_csv(const Row& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.7f},{:.6f},{:016x}\n", r.seed,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.7f},{:.6f},{},{:016x}\n", r.seed,
                      plain(r.parent), r.family, r.world, r.driver, r.families.drawn, r.families.accepted,
                      r.keys.drawn, r.keys.accepted, plain(r.end), plain(r.finding), r.time_s, r.path_m,
-                     r.gap_m, r.closeness, r.hash);
+                     r.gap_m, r.closeness, r.work, r.hash);
 }
 
 Row parse_row(const std::string& line) { return row_of(split(line.substr(0, line.find('\n')))); }
@@ -196,8 +207,8 @@ void RowFile::write(const std::string& line) {
 }
 
 std::string summary(const std::vector<Row>& rows) {
-  return fmt::format("{} cases\n\n{}\n{}\n{}", rows.size(), findings_table(rows), shares_table(rows),
-                     nearest_table(rows));
+  return fmt::format("{} cases\n\n{}\n{}\n{}{}", rows.size(), findings_table(rows), shares_table(rows),
+                     nearest_table(rows), dearest(rows));
 }
 
 }  // namespace whisker::hunt

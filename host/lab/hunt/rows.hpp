@@ -17,6 +17,7 @@ struct Row {
   Share families, keys;  ///< draws of the robot
   std::string end, finding;
   double time_s = 0, path_m = 0, gap_m = 0, closeness = 0;
+  int work = 0;
   std::uint64_t hash = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "firmware/apps/command_hash.hpp"
+#include "firmware/math/work.hpp"
 #include "host/harness/run/event_player.hpp"
 #include "host/harness/run/make_record.hpp"
 #include "host/harness/run/narrowest_gap.hpp"
@@ -193,6 +194,8 @@ class MissionDrive final : public Driven {
     const Status& status = pilot_->tick(Time::from_raw(now_ms_));
     status_ = &status;
     hash_.add(status.command);
+    // A restart begins a new robot's count.
+    work_ = std::max(work_, int{status.work});
     states_.insert(
         fmt::format("{}/{}", planning::name(status.decision.mode), planning::name(status.decision.why)));
     if (!waits && has_ended(status)) return false;
@@ -215,6 +218,7 @@ class MissionDrive final : public Driven {
                                                  : "time";
     o.hash = hash_.value();
     o.states = states_;
+    o.work = work_;
   }
 
  private:
@@ -232,6 +236,7 @@ class MissionDrive final : public Driven {
   std::unique_ptr<Pilot> pilot_;
   const Status* status_ = nullptr;
   std::uint32_t now_ms_ = 0;
+  int work_ = 0;
   CommandHash hash_;
   std::set<std::string> states_;
 };
@@ -317,6 +322,7 @@ Outcome attempt(Case& c) {
   if (is_exact(s) && is_wrong(c, o.end, left_m)) o.finding = o.end == "reached" ? "off_goal" : o.end;
   const bool rests = o.end == "time" && c.planner && judge.rests(o.time_s);
   if (rests && is_exact(s) && ticks_in_time(c)) o.finding = "stuck";
+  if (o.work > Work::kMost) o.finding = "work";
   if (o.finding.empty()) o.finding = other_hash(c, o.hash);
   return o;
 }
