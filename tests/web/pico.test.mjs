@@ -27,7 +27,8 @@ describe('a Pico in the playground', () => {
       return play.over || play.time > time || chip.fault !== '';
     };
     const late = (error) => assert.equal(error.name, 'TimeoutError', error.message);
-    const look = () => page.evaluate(() => ({time: window.whisker.play.time, fault: window.whisker.chip.fault}));
+    const look = () =>
+      page.evaluate(() => ({time: window.whisker.play.time, fault: window.whisker.chip.fault}));
     let state = {time: -1};
     while (!(await page.waitForFunction(ends, seconds, STEP).catch(late))) {
       const {time} = state;
