@@ -28,19 +28,23 @@ describe('a Pico in the playground', () => {
     };
     const late = (error) => assert.equal(error.name, 'TimeoutError', error.message);
     const look = () =>
-      page.evaluate(() => ({time: window.whisker.play.time, fault: window.whisker.chip.fault}));
+      page.evaluate(() => {
+        const {play, chip} = window.whisker;
+        return {time: play.time, playing: play.playing, waits: chip.waits, fault: chip.fault};
+      });
     let state = {time: -1};
     while (!(await page.waitForFunction(ends, seconds, STEP).catch(late))) {
       const {time} = state;
       state = await look();
-      assert.ok(state.time > time, `stands still at ${state.time} s`);
+      assert.ok(state.time > time, `stands still: ${JSON.stringify(state)}`);
     }
     assert.equal((await look()).fault, '');
   };
+  const setPlaying = (page, on) => page.evaluate((to) => window.whisker.play.setPlaying(to), on);
   const driven = async (page, seconds) => {
-    await page.click('#play');
+    await setPlaying(page, true);
     await until(page, seconds);
-    await page.click('#play');
+    await setPlaying(page, false);
     await drawn(page);
   };
   const over = (page) => until(page, Infinity);
