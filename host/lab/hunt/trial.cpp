@@ -322,7 +322,7 @@ Outcome attempt(Case& c) {
   if (is_exact(s) && is_wrong(c, o.end, left_m)) o.finding = o.end == "reached" ? "off_goal" : o.end;
   const bool rests = o.end == "time" && c.planner && judge.rests(o.time_s);
   if (rests && is_exact(s) && ticks_in_time(c)) o.finding = "stuck";
-  if (o.work > Work::kMost) o.finding = "work";
+  if (o.finding.empty() && o.work > Work::kMost) o.finding = "work";
   if (o.finding.empty()) o.finding = other_hash(c, o.hash);
   return o;
 }
