@@ -102,24 +102,30 @@ class PicoDrive {
   }
 }
 
+/** What cannot go on is told to the page. */
+async function attempt(what) {
+  try {
+    await what();
+  } catch (error) {
+    postMessage({fault: error.message});
+  }
+}
+
 /** After the messages that have come. */
 const channel = new MessageChannel();
 let next = () => {};
-channel.port1.onmessage = () => next();
+channel.port1.onmessage = () => attempt(next);
 function soon(what) {
   next = what;
   channel.port2.postMessage(null);
 }
 
 let drive = null;
-onmessage = async ({data}) => {
-  try {
+onmessage = ({data}) =>
+  attempt(async () => {
     if (data.image) drive = PicoDrive.start(data);
     const here = await drive;
     if (data.change) here.change(data.change);
     if (data.pull) here.watch.pull(data.pull);
     if (data.until !== undefined) here.runUntil(data.until);
-  } catch (error) {
-    postMessage({fault: error.message});
-  }
-};
+  });
