@@ -86,6 +86,8 @@ bool Wavefront::end_level(GridMap& map) noexcept {
 }
 
 bool Wavefront::reaches_border(const GridMap& map) const noexcept {
+  // A blocked goal has a level, but not as a cell where the wavefront has been.
+  if (map.holds(task_.goal) && map.at_rim(task_.goal)) return true;
   const int words = map.shape().words;
   const int32_t rows = map.shape().rows;
   const auto labelled = [&](int32_t row, int w) {

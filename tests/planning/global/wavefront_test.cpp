@@ -252,6 +252,25 @@ TEST(Wavefront, GoesAroundOutsideTheWindowAtAPrice) {
   EXPECT_TRUE(p.x == 0 || p.y == 0 || p.y == 56);
 }
 
+TEST(Wavefront, GoesAroundOutsideToABlockedGoalAtTheRim) {
+  for (const Cell goal : {Cell{63, 28}, Cell{0, 28}, Cell{40, 0}, Cell{40, 56}, Cell{63, 0}}) {
+    SCOPED_TRACE(testing::Message() << goal.x << ", " << goal.y);
+    test::Room room({2, 57, 100_mm});
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        if (room.map.holds(goal + Cell{x, y})) room.map.set(goal + Cell{x, y}, CellState::occupied);
+      }
+    }
+    Wavefront::Task task;
+    task.body = {20, 28};
+    task.goal = goal;
+    Wavefront wavefront;
+    wavefront.begin(room.map, task);
+    ASSERT_TRUE(wavefront.run(room.map, kWhole));
+    EXPECT_TRUE(wavefront.reached() && wavefront.outside());
+  }
+}
+
 TEST(Wavefront, SaysThatThereIsNoWay) {
   test::Room room({2, 57, 100_mm});
   for (int i = -3; i <= 3; ++i) {
