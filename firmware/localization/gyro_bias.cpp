@@ -50,7 +50,7 @@ bool GyroBias::add(int32_t sum, int32_t samples) noexcept {
   if (known_ && (apart > most || apart < -most)) return false;
   samples_ = narrow<uint16_t>(samples_ + samples);
   sum_ += sum;
-  if (known_ && still_for_ > wait_ + kRest) used_for_ = Duration{};
+  if (known_ && still_for_ > wait_ + (in_doubt_ ? kRestInDoubt : kRest)) used_for_ = Duration{};
   return true;
 }
 

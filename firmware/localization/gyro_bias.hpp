@@ -17,13 +17,16 @@ int32_t rate_of(int32_t sample, const GyroParams& params) noexcept;
 /// then the body may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
-/// gyro that warms up changes noticeably. In between, the value follows the change that was learned.
+/// gyro that warms up changes noticeably; one that is in doubt rests longer and sooner. In between, the value
+/// follows the change that was learned.
 class GyroBias {
  public:
   static constexpr Duration kWait = 150_ms;
   static constexpr Duration kFirstRest = 2000_ms;
   static constexpr Duration kRest = 1000_ms;
   static constexpr Duration kServes = 60000_ms;
+  static constexpr Duration kRestInDoubt = 3000_ms;
+  static constexpr Duration kServesInDoubt = 30000_ms;
 
   void configure(const Params& params) noexcept;
   /// Once per step. `still`: no counts, and no wheel is commanded to turn.
@@ -52,7 +55,9 @@ class GyroBias {
   /// A rest is needed.
   bool due() const noexcept { return due_for() > Duration{}; }
   /// How long it has been needed; negative before.
-  Duration due_for() const noexcept { return used_for_ - kServes; }
+  Duration due_for() const noexcept { return used_for_ - (in_doubt_ ? kServesInDoubt : kServes); }
+  /// What it has done to the heading so far is much.
+  void doubt(bool is) noexcept { in_doubt_ = is; }
   /// The body does not come to rest: try again after kServes.
   void postpone() noexcept { used_for_ = Duration{}; }
   /// Of one sample, 2^-16 of its unit.
@@ -68,6 +73,7 @@ class GyroBias {
   Duration used_for_ = kServes + 1_ms;  // since the last long rest
   uint16_t samples_ = 0;                // that are in the sum
   bool known_ = false;
+  bool in_doubt_ = false;
 };
 
 }  // namespace whisker::localization

@@ -72,6 +72,7 @@ Pose Localizer::ahead_by(const PoseBound::Correction& by) const noexcept {
 
 bool Localizer::learn_bias() noexcept {
   GyroBias::Mean mean;
+  heading_->bias().doubt(bound_->heading_wanders());
   if (!heading_->bias().take(params_.gyro, mean)) return false;
   const PoseBound::Correction by = bound_->rest(mean, params_, heading_->bias());
   if (mean.first) {

@@ -20,7 +20,7 @@ Params params_with_gyro() {
 
 class GyroTest : public testing::Test {
  protected:
-  GyroTest() { board_.gyro_bias = 80; }
+  explicit GyroTest(const Params& params = params_with_gyro()) : params_(params) { board_.gyro_bias = 80; }
   const Status& tick(int times = 1) {
     for (int i = 0; i < times; ++i) {
       now_ += 10;
@@ -38,7 +38,7 @@ class GyroTest : public testing::Test {
     return ticks;
   }
 
-  Params params_ = params_with_gyro();
+  Params params_;
   test::FakeBoard board_;
   planning::TableBoundaryPlanner planner_{params_, fuzzy::kDefaultTable};
   Robot robot_{board_, board_, planner_.planner, params_, nullptr, &board_};
@@ -63,6 +63,32 @@ TEST_F(GyroTest, AMissionStandsForTwoSecondsFirstAndForOneAMinuteLater) {
   EXPECT_LE(until(false), 170);
   tick(300);
   EXPECT_FALSE(stands());
+  EXPECT_EQ(robot_.status().health.fault, Fault::none);
+}
+
+Params params_with_bound() {
+  Params p = params_with_gyro();
+  p.pose_error.wheel_scale_common = Ratio::from_raw(1000);
+  return p;
+}
+
+class GyroWithBoundTest : public GyroTest {
+ protected:
+  GyroWithBoundTest() : GyroTest(params_with_bound()) {}
+};
+
+TEST_F(GyroWithBoundTest, OnceTheHeadingMayBeOffItRestsLongerAndSooner) {
+  robot_.set_goal({{900_m, 0_m}, 100_mm});
+  until(true), until(false);
+  EXPECT_GE(until(true), 4000) << "the first rest makes it sure for longer than half a minute";
+  until(false);
+  int driven = 0, rested = 0;
+  for (int rest = 0; rest < 6; ++rest) driven = until(true), rested = until(false);
+  EXPECT_GT(robot_.status().sigma.heading.wrapped(), Angle::turns(1, 1800).wrapped());
+  EXPECT_GE(driven, 3000);
+  EXPECT_LE(driven, 4700);
+  EXPECT_GE(rested, 280);
+  EXPECT_LE(rested, 360);
   EXPECT_EQ(robot_.status().health.fault, Fault::none);
 }
 
