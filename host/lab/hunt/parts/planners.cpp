@@ -131,7 +131,8 @@ std::string judge_scan(Dice& dice) {
 std::string judge_sides(Dice& dice) {
   Ground g(dice);
   const double right = -dice.uniform(30, 75), left = dice.uniform(30, 75);
-  if (std::fabs(left + right) < 12) return "";
+  // Each turn is known to a cell at the echoes, 7.5 degrees, and a candidate.
+  if (std::fabs(left + right) < 18) return "";
   const auto shown = [&](double deg) { return deg >= right - 12.5 && deg <= left + 12.5; };
   const Angle target = draw_angle(dice);
   g.see(degrees(target) + 120, degrees(target) + 240, 300_mm, false);
