@@ -116,6 +116,17 @@ describe('links', () => {
     });
   }
 
+  test('a link that is entered is followed, though the page is about to write its own', async () => {
+    const {page} = await openPlayground('#world=discs&seed=2&planner=skirt');
+    await page.waitForTimeout(600);
+    await page.evaluate(() => {
+      const {play} = window.whisker;
+      location.hash = '#world=maze&seed=2&planner=skirt';
+      play.restore({...play.state, seed: 3});
+    });
+    await page.waitForFunction(() => window.whisker.play.state.kind === 'maze');
+  });
+
   test('the copied link says what is there now, whatever the address says', async () => {
     const {page} = await openPlayground('#world=discs&seed=3&planner=skirt');
     await page.evaluate(() => {

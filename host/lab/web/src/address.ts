@@ -8,9 +8,13 @@ const EVERY_MS = 400;
 export class Address {
   private last = -Infinity;
   private waits = false;
+  /** The address that the page has written or followed. */
+  private known = location.hash;
 
   /** `hash` returns the hash of the current state. */
-  constructor(private readonly hash: () => string | Promise<string>) {}
+  constructor(private readonly hash: () => string | Promise<string>) {
+    addEventListener('hashchange', () => (this.known = location.hash));
+  }
 
   /** The state has changed: updates the address at once, or soon after the last update. */
   change(): void {
@@ -32,9 +36,11 @@ export class Address {
     this.last = performance.now();
     const hash = this.hash();
     const text = typeof hash === 'string' ? hash : await hash;
-    if (text === location.hash) return;
+    // Another link that was just entered is not followed yet.
+    if (text === location.hash || location.hash !== this.known) return;
     try {
       history.replaceState(null, '', text || location.pathname + location.search);
+      this.known = location.hash;
     } catch {
       // The browser refuses it for now; a copied link does not depend on the address.
     }
