@@ -49,8 +49,9 @@ struct Status : localization::Estimate {
 ///
 /// A gyro is used if GyroParams::fitted says so. Its bias is measured whenever the robot stands. During a
 /// mission, the robot stands for two seconds at the start and for one about every minute, with
-/// Why::gyro_rest. Without an answer from the gyro, the wheels turn the pose: Status::heading_source,
-/// Health::gyro_lost.
+/// Why::gyro_rest; with a declared error of the wheels, for three about every 30 seconds once the heading may
+/// be off (localization/gyro_bias.hpp). Without an answer from the gyro, the wheels turn the pose:
+/// Status::heading_source, Health::gyro_lost.
 ///
 /// If PoseErrorParams declare an error of the wheels, Status::sigma says how far the pose may be off. It
 /// makes clear ground expire sooner (perception/ground_age.hpp) and widens what counts as the same place

@@ -17,8 +17,8 @@ int32_t rate_of(int32_t sample, const GyroParams& params) noexcept;
 /// then the body may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
-/// gyro that warms up changes noticeably; one that is in doubt rests longer and sooner. In between, the value
-/// follows the change that was learned.
+/// gyro that warms up changes noticeably. In doubt, one of kRestInDoubt serves for kServesInDoubt. In
+/// between, the value follows the change that was learned.
 class GyroBias {
  public:
   static constexpr Duration kWait = 150_ms;
@@ -56,9 +56,9 @@ class GyroBias {
   bool due() const noexcept { return due_for() > Duration{}; }
   /// How long it has been needed; negative before.
   Duration due_for() const noexcept { return used_for_ - (in_doubt_ ? kServesInDoubt : kServes); }
-  /// What it has done to the heading so far is much.
+  /// It may have turned the heading so far that it needs longer and more frequent rests.
   void doubt(bool is) noexcept { in_doubt_ = is; }
-  /// The body does not come to rest: try again after kServes.
+  /// The body does not come to rest for long enough: try again as after a rest.
   void postpone() noexcept { used_for_ = Duration{}; }
   /// Of one sample, 2^-16 of its unit.
   int32_t value() const noexcept;

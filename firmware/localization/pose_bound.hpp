@@ -36,7 +36,7 @@ class PoseBound {
   static constexpr int32_t kJumpSigmas = 4;
   /// Ticks between two updates.
   static constexpr uint8_t kEvery = 8;
-  static constexpr int64_t kDoubtful = 30144082;  ///< 0.3 degrees: rad^2 2^-40
+  static constexpr int64_t kDoubtful = 30144082;  ///< the square of 0.3 degrees: rad^2 2^-40
 
   struct Step {
     Pose pose;  ///< after the step
@@ -55,8 +55,9 @@ class PoseBound {
   /// Once per tick. True: sigma() has changed. Unless known(), only the filter of the bias advances.
   bool step(const Step& step) noexcept;
   PoseSigma sigma() const noexcept;
-  /// What does not last has turned the heading by more than kDoubtful (one standard deviation).
-  bool heading_wanders() const noexcept { return heading_ > kDoubtful; }
+  /// The variance of the heading is above kDoubtful, without errors that have lasted since the last measured
+  /// heading. False unless known().
+  bool heading_wanders() const noexcept { return known_ && heading_ > kDoubtful; }
 
   /// What a measured heading says of the pose in the frame of step().
   struct Correction {

@@ -66,6 +66,13 @@ TEST_F(GyroTest, AMissionStandsForTwoSecondsFirstAndForOneAMinuteLater) {
   EXPECT_EQ(robot_.status().health.fault, Fault::none);
 }
 
+TEST_F(GyroTest, AFixWithoutABoundMakesNoRestSooner) {
+  robot_.set_goal({{900_m, 0_m}, 100_mm});
+  until(true), until(false);
+  ASSERT_TRUE(robot_.correct(robot_.status().pose, {10_mm, 10_mm, 1_deg}));
+  EXPECT_GE(until(true), 6000);
+}
+
 Params params_with_bound() {
   Params p = params_with_gyro();
   p.pose_error.wheel_scale_common = Ratio::from_raw(1000);
