@@ -153,7 +153,7 @@ void Perception::take_in(int i, Intake& in) noexcept {
   measure(i, sight, in);
   const ConeObservation& observation = in.out.observations[i];
   if (observation.hit) in.shown[i].moved = moved(observation, sight, in.misaimed);
-  in.shown[i].appears = mark(observation, sight.single);
+  in.shown[i].appears = mark(observation, sight);
   in.out.observed = static_cast<uint8_t>(in.out.observed | 1U << i);
 }
 
@@ -203,19 +203,20 @@ Length Perception::moved(const ConeObservation& observation, const RecentReading
 }
 
 /// True: something has come into the beam since its last reading.
-bool Perception::mark(const ConeObservation& observation, bool single) noexcept {
+bool Perception::mark(const ConeObservation& observation, const RecentReadings& sight) noexcept {
   EarlierObservation& last = last_[observation.number];
   const uint8_t bit = static_cast<uint8_t>(1U << observation.number);
   const bool had_one = (seen_ & bit) != 0;
   // A single clear reading is not evidence: it needs a second one.
-  if (!single || had_one) {
-    const EarlierObservation* const before = single ? &last : nullptr;
+  if (!sight.single || had_one) {
+    const EarlierObservation* const before = sight.single ? &last : nullptr;
     const LocalGrid::Apexes at = local_grid_.apexes(observation, before);
     local_grid_.mark(observation, before, at);
     local_grid_.chain(observation, before, at);
   }
   const bool appears = had_one && last.free > observation.free + kAppears;
-  last = {observation.beam.apex, observation.beam.axis, observation.free};
+  // Two clear ones in a row may both be false: the second one needs the one before the first.
+  if (!sight.first_clear || !had_one) last = {observation.beam.apex, observation.beam.axis, observation.free};
   seen_ |= bit;
   return appears;
 }

@@ -89,7 +89,7 @@ class Perception {
   void take_in(int i, Intake& in) noexcept;
   void measure(int i, const RecentReadings& sight, Intake& in) noexcept;
   Length moved(const ConeObservation& observation, const RecentReadings& sight, bool misaimed) noexcept;
-  bool mark(const ConeObservation& observation, bool single) noexcept;
+  bool mark(const ConeObservation& observation, const RecentReadings& sight) noexcept;
   void revoke(const ConeObservation& echo, const Shown& shown, Vec body) noexcept;
   void doubt(const ConeObservation& echo, Length farthest, Vec body, Mover& mover) noexcept;
   void learn(const Intake& in) noexcept;
@@ -110,7 +110,7 @@ class Perception {
   uint8_t taken_back_ = 0;  // echoes that appeared and took back ground, near the place below
   Vec taken_back_at_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
-  EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
+  EarlierObservation last_[hal::kBeams];  // of each beam, if any: see mark()
   bool waits_ = false;                    // readings that nobody has thought over
   uint8_t put_off_ = 0;                   // one bit per beam with such an observation
   uint8_t put_off_hits_ = 0;              // of them, those with an object

@@ -22,12 +22,13 @@ struct RecentReadings {
   Echo near;            ///< the nearest of the last four: a single reading cannot make it far. If phantoms
                         ///< are frequent, the nearest of the last five that others confirm
   bool single = false;  ///< the newest measurement alone does not prove `near`: it is clear or a phantom
-  bool phantoms = false;  ///< phantoms are frequent
-  bool misses = false;    ///< readings that miss an object are frequent
-  Echo newest;            ///< the newest measurement
-  Echo typical;           ///< the median of the last three
-  Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
-  bool measured = false;  ///< the last three are all distances
+  bool first_clear = false;  ///< the newest measurement is clear, and the one before it is not
+  bool phantoms = false;     ///< phantoms are frequent
+  bool misses = false;       ///< readings that miss an object are frequent
+  Echo newest;               ///< the newest measurement
+  Echo typical;              ///< the median of the last three
+  Length farthest;           ///< the farthest of the last three: a single reading cannot make it near
+  bool measured = false;     ///< the last three are all distances
   Length bend;  ///< second difference: if measured, twice the distance of the second one from the line
                 ///< through the others
 };

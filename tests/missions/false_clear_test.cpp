@@ -1,4 +1,5 @@
-// A reading that is wrongly clear clears no ground, if the adjacent readings are right.
+// A reading that is wrongly clear clears no ground, nor do two in a row after an echo, if those around them
+// are right.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -22,10 +23,13 @@ namespace {
 
 using worlds::Random;
 
-/// Makes readings of each beam wrongly clear, with at least five between two of them.
-class LoneFalseClears {
+/// Makes readings of each beam wrongly clear, one or, after an echo, two in a row, with at least kRight right
+/// ones between them.
+class FewFalseClears {
+  static constexpr int kRight = 4;
+
  public:
-  explicit LoneFalseClears(std::uint64_t seed) : random_(seed) {}
+  FewFalseClears(std::uint64_t seed, int in_a_row) : random_(seed), in_a_row_(in_a_row) {}
   void operator()(hal::RangeReadings& readings) {
     for (int i = 0; i < hal::kBeams; ++i) {
       Beam& beam = beam_[i];
@@ -34,20 +38,22 @@ class LoneFalseClears {
       if (reading.sequence != beam.sequence) {
         beam.sequence = reading.sequence;
         ++beam.since;
-        beam.lies = beam.since >= 5 && random_.chance(0.3);
-        if (beam.lies) beam.since = 0;
+        const bool may = beam.since >= in_a_row_ + kRight && (in_a_row_ == 1 || beam.echo);
+        if (may && random_.chance(0.3)) beam.since = 0;
+        beam.echo = reading.status == hal::RangeStatus::ok;
       }
-      if (beam.lies) reading.status = hal::RangeStatus::clear;
+      if (beam.since < in_a_row_) reading.status = hal::RangeStatus::clear;
     }
   }
 
  private:
   struct Beam {
     std::uint8_t sequence = 0xFF;
-    int since = 0;
-    bool lies = false;
+    int since = kRight;
+    bool echo = false;
   };
   Random random_;
+  int in_a_row_;
   Beam beam_[hal::kBeams];
 };
 
@@ -65,7 +71,10 @@ int overlapping(Bench& bench, double cell) {
   return found;
 }
 
-TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
+class FalseClears : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(InARow, FalseClears, testing::Values(1, 2));
+
+TEST_P(FalseClears, ClearNoCellThatHoldsAnything) {
   const std::uint64_t missions = test::effort(2, 1000);
   int overlaps = 0, missions_with = 0, contacts = 0, reached = 0;
   for (std::uint64_t seed = 1; seed <= missions; ++seed) {
@@ -74,7 +83,7 @@ TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
     const Scenario scenario = worlds::generate(worlds::Kind::discs, options);
     const double cell = metres(grid_cell(scenario.robot));
     Bench bench(scenario, PlannerKind::boundary);
-    bench.board().ranges = LoneFalseClears(seed);
+    bench.board().ranges = FewFalseClears(seed, GetParam());
     int here = 0, ticks = 0;
     while (bench.plant().time() < 300) {
       // The estimate is that of the last tick, so the true pose is taken before time passes.
