@@ -1,4 +1,4 @@
-// The image that is flashed drives in three worlds. Every answer of its core is compared with that of a core on this
+// The image that is flashed drives to the goal. Every answer of its core is compared with that of a core on this
 // computer, for the same readings and times.
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
@@ -33,15 +33,15 @@ function takesTurns(sonars, end) {
 describe('the image of the Pico', () => {
   const robots = [
     ['discs', ROBOT],
-    ['u_trap', ROBOT],
-    ['room', ROBOT],
     ['discs', SONAR, ', with HC-SR04'],
-    ['u_trap', ROBOT, ', over USB', {usb: true}],
   ];
-  // At night, also a gyro, and worlds of the generator.
+  // At night, also longer ways, USB, a gyro, and worlds of the generator.
   const FULL = ', with a gyro and a bumper';
   if (process.env.WHISKER_LONG)
     robots.push(
+      ['u_trap', ROBOT],
+      ['room', ROBOT],
+      ['u_trap', ROBOT, ', over USB', {usb: true}],
       ['discs', robotWith('gyro = true\nbumper = true\n'), FULL],
       ['room', SONAR, ', with HC-SR04'],
     );

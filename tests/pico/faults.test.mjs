@@ -386,7 +386,7 @@ describe('of an image', () => {
     assert.ok(damaged(17).chip.waitsForUsb);
   });
   test('a flipped bit anywhere else: it flashes, and never drives', () => {
-    for (const at of [0x1d0, 40000, 180000]) {
+    for (const at of LONG ? [0x1d0, 40000, 180000] : [40000]) {
       const {chip, flashes, asleep} = damaged(at);
       assert.ok(asleep);
       chip.run(2e9);
