@@ -215,7 +215,7 @@ bool Perception::mark(const ConeObservation& observation, const RecentReadings& 
     local_grid_.chain(observation, before, at);
   }
   const bool appears = had_one && last.free > observation.free + kAppears;
-  // Two clear ones in a row may both be false: the second one needs the one before the first.
+  // Two clear ones in a row may both be false: the second one then needs the one before the first.
   if (!sight.first_clear || !had_one) last = {observation.beam.apex, observation.beam.axis, observation.free};
   seen_ |= bit;
   return appears;

@@ -199,7 +199,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   s.oldest = recent(kNear - 1).taken;
   s.near = {nearest, validity_of(nearest, far)};
   s.single = last[0] == far || last[0] < nearest;
-  s.first_clear = last[0] == far && last[1] < far;
+  s.first_clear = false_clear_share_ != 0 && last[0] == far && last[1] < far;
   s.newest = {last[0], validity_of(last[0], far)};
   s.farthest = max(high, last[kTypical - 1]);
   s.measured =

@@ -22,7 +22,8 @@ struct RecentReadings {
   Echo near;            ///< the nearest of the last four: a single reading cannot make it far. If phantoms
                         ///< are frequent, the nearest of the last five that others confirm
   bool single = false;  ///< the newest measurement alone does not prove `near`: it is clear or a phantom
-  bool first_clear = false;  ///< the newest measurement is clear, and the one before it is not
+  bool first_clear = false;  ///< the newest measurement is clear, the one before it is not, and such ones
+                             ///< have been false
   bool phantoms = false;     ///< phantoms are frequent
   bool misses = false;       ///< readings that miss an object are frequent
   Echo newest;               ///< the newest measurement

@@ -1,5 +1,5 @@
 // A reading that is wrongly clear clears no ground, nor do two in a row after an echo, if those around them
-// are right.
+// are right and the beam has shown before that it errs.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -23,10 +23,11 @@ namespace {
 
 using worlds::Random;
 
-/// Makes readings of each beam wrongly clear, one or, after an echo, two in a row, with at least kRight right
-/// ones between them.
+/// Makes readings of each beam wrongly clear, one or, once it has shown that it errs, two in a row after an
+/// echo, with at least kRight right ones between them.
 class FewFalseClears {
   static constexpr int kRight = 4;
+  static constexpr int kShown = 20;
 
  public:
   FewFalseClears(std::uint64_t seed, int in_a_row) : random_(seed), in_a_row_(in_a_row) {}
@@ -38,11 +39,15 @@ class FewFalseClears {
       if (reading.sequence != beam.sequence) {
         beam.sequence = reading.sequence;
         ++beam.since;
-        const bool may = beam.since >= in_a_row_ + kRight && (in_a_row_ == 1 || beam.echo);
-        if (may && random_.chance(0.3)) beam.since = 0;
+        const int lies = beam.lies < kShown ? 1 : in_a_row_;
+        const bool may = beam.since >= lies + kRight && (in_a_row_ == 1 || beam.echo);
+        if (may && random_.chance(0.3)) {
+          beam.since = 0;
+          ++beam.lies;
+        }
         beam.echo = reading.status == hal::RangeStatus::ok;
       }
-      if (beam.since < in_a_row_) reading.status = hal::RangeStatus::clear;
+      if (beam.since < (beam.lies <= kShown ? 1 : in_a_row_)) reading.status = hal::RangeStatus::clear;
     }
   }
 
@@ -50,6 +55,7 @@ class FewFalseClears {
   struct Beam {
     std::uint8_t sequence = 0xFF;
     int since = kRight;
+    int lies = 0;
     bool echo = false;
   };
   Random random_;
