@@ -12,6 +12,7 @@ const MS = 1e6;
 const MOVES_UM_S = 20000;
 const MOST_CYCLES = 1_250_000;
 const NONE = null; // a STALL
+const atNight = process.env.WHISKER_LONG ? test : () => {};
 
 /** The image at a host, without a body; it has enumerated. */
 function enumerated({seed = 1, open = true} = {}) {
@@ -236,8 +237,8 @@ function heard(drive) {
   return drive.rig.verdict().frames - before;
 }
 
-function driven(what, use) {
-  test(what, () => {
+function driven(what, use, when = test) {
+  when(what, () => {
     const drive = moving();
     try {
       use(drive);
@@ -248,15 +249,19 @@ function driven(what, use) {
 }
 
 describe('of a robot that is driven by USB', () => {
-  driven('a host that does not read: the drive goes on', (drive) => {
-    drive.body.usb.setReading(false);
-    drive.until(1500, () => false);
-    assert.equal(heard(drive), 0);
-    goesOn(drive);
-    drive.body.usb.setReading(true);
-    assert.ok(heard(drive) > 50);
-    arrives(drive);
-  });
+  driven(
+    'a host that does not read: the drive goes on',
+    (drive) => {
+      drive.body.usb.setReading(false);
+      drive.until(1500, () => false);
+      assert.equal(heard(drive), 0);
+      goesOn(drive);
+      drive.body.usb.setReading(true);
+      assert.ok(heard(drive) > 50);
+      arrives(drive);
+    },
+    atNight,
+  );
   driven('a cable that is pulled out: the mission goes on, and a new cable hears it', (drive) => {
     drive.body.connect(false);
     drive.until(1000, () => false);
@@ -268,13 +273,17 @@ describe('of a robot that is driven by USB', () => {
     assert.ok(heard(drive) > 50);
     arrives(drive);
   });
-  driven('a reset of the bus: the mission goes on, and the host finds it again', (drive) => {
-    drive.body.usb.reset();
-    drive.until(200, () => false);
-    assert.equal(drive.body.usb.enumerations, 2);
-    assert.ok(heard(drive) > 50);
-    arrives(drive);
-  });
+  driven(
+    'a reset of the bus: the mission goes on, and the host finds it again',
+    (drive) => {
+      drive.body.usb.reset();
+      drive.until(200, () => false);
+      assert.equal(drive.body.usb.enumerations, 2);
+      assert.ok(heard(drive) > 50);
+      arrives(drive);
+    },
+    atNight,
+  );
   driven('an E-stop by the serial line beside it', (drive) => {
     const [uart] = drive.body.mcu.uart;
     uart.connected = true;
