@@ -43,6 +43,7 @@ class Replayer::Inside {
   }
 
   const std::string& difference() const { return result_.difference; }
+  const RecordingPlanners& planners() const { return planners_; }
 
   ReplayResult result() {
     step_guard(nullptr);
@@ -257,16 +258,16 @@ void Replayer::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, std::
   inside_->on_frame(frame, time_us, line);
 }
 const std::string& Replayer::difference() const { return inside_->difference(); }
+const perception::LocalGrid* Replayer::local_grid() const { return inside_->planners().local_grid(); }
+const RecordingGuide* Replayer::guide() const { return inside_->planners().guide(); }
 ReplayResult Replayer::result() { return inside_->result(); }
 
 Shadow::Shadow(int robot, PlannerKind planner) {
   options_.robot = robot;
   options_.planner = planner;
-  options_.stepped = [this](const can::InputSet&, const Status& status,
-                            const perception::LocalGrid* local_grid, const RecordingGuide* guide) {
+  options_.stepped = [this](const can::InputSet&, const Status& status, const perception::LocalGrid*,
+                            const RecordingGuide*) {
     status_ = status;
-    local_grid_ = local_grid;
-    guide_ = guide;
     stepped_ = true;
   };
   replayer_.emplace(options_);

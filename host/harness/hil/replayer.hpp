@@ -59,6 +59,8 @@ class Replayer {
   void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, std::uint64_t line);
   /// The first answer of the controller that this core would not have given; "": none.
   const std::string& difference() const;
+  const perception::LocalGrid* local_grid() const;
+  const RecordingGuide* guide() const;
   ReplayResult result();
 
  private:
@@ -80,8 +82,9 @@ class Shadow {
 
   /// Of the last step.
   const Status& status() const { return status_; }
-  const perception::LocalGrid* local_grid() const { return local_grid_; }
-  const RecordingGuide* guide() const { return guide_; }
+  /// Of the core as it is: other parameters begin another one. Null before its first step.
+  const perception::LocalGrid* local_grid() const { return replayer_->local_grid(); }
+  const RecordingGuide* guide() const { return replayer_->guide(); }
 
  private:
   struct Heard {
@@ -93,8 +96,6 @@ class Shadow {
   std::optional<Replayer> replayer_;
   std::vector<Heard> heard_;
   Status status_;
-  const perception::LocalGrid* local_grid_ = nullptr;
-  const RecordingGuide* guide_ = nullptr;
   bool stepped_ = false;
 };
 
