@@ -67,6 +67,38 @@ TEST(Shadow, ThatStepsOtherwiseIsSaidAndTheControllerKeepsItsWord) {
   EXPECT_EQ(result.verdict, direct.verdict);
 }
 
+TEST(Shadow, OfOtherParametersShowsNoGridBeforeItsFirstStep) {
+  Scenario scenario = scenario_of(worlds::Kind::discs);
+  scenario.goal.at = {scenario.start.at.x + 0.3, scenario.start.at.y};
+  bus::MemoryBus wire;
+  hal::CanPort& base = wire.attach();
+  hil::HostPlanners planners(kDefaultPlanner);
+  can_app::Controller controller(wire.attach(), {1, 77, 0}, planners);
+  test::SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
+  hil::Shadow shadow(1, kDefaultPlanner);
+  int shown = 0, gone = 0;
+  bool shows = false;
+  hil::Tap tap(base, [&](const hal::CanFrame& frame) {
+    shadow.hear(frame, time.now_us());
+    shadow.follow();
+    const bool now = shadow.local_grid() != nullptr;
+    shown += now && !shows ? 1 : 0;
+    gone += shows && !now ? 1 : 0;
+    shows = now;
+  });
+  RunOptions options;
+  const hil::BusOptions bus;
+  hil::Figures figures;
+  options.pilot = hil::bus_pilot(tap, time, bus, figures);
+  for (const Length radius : {scenario.robot.body.radius, scenario.robot.body.radius - 5_mm}) {
+    scenario.robot.body.radius = radius;
+    EXPECT_EQ(run(scenario, options).verdict, Verdict::reached);
+  }
+  EXPECT_EQ(shown, 2);
+  EXPECT_EQ(gone, 1);
+  EXPECT_EQ(shadow.difference(), "");
+}
+
 TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
