@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
 import {driveOf} from '../../host/harness/pico/rig.mjs';
-import {ROBOT, SONAR, generated, robotWith, world} from './worlds.mjs';
+import {LONG, ROBOT, SONAR, generated, robotWith, world} from './worlds.mjs';
 
 const MOST_STACK = 3072;
 const MOST_CYCLES = 1_250_000; // a period at 125 MHz
@@ -34,7 +34,7 @@ describe('the image of the Pico', () => {
   const robots = [['discs', ROBOT]];
   // At night, also HC-SR04, longer ways, USB, a gyro, and worlds of the generator.
   const FULL = ', with a gyro and a bumper';
-  if (process.env.WHISKER_LONG)
+  if (LONG)
     robots.push(
       ['discs', SONAR, ', with HC-SR04'],
       ['u_trap', ROBOT],
@@ -43,7 +43,7 @@ describe('the image of the Pico', () => {
       ['discs', robotWith('gyro = true\nbumper = true\n'), FULL],
       ['room', SONAR, ', with HC-SR04'],
     );
-  for (const kind of process.env.WHISKER_LONG ? ['discs', 'u-trap', 'rooms'] : [])
+  for (const kind of LONG ? ['discs', 'u-trap', 'rooms'] : [])
     for (const seed of [4, 5, 6]) robots.push([generated(kind, seed), ROBOT]);
   for (const [name, robot, extra = '', options = {}] of robots) {
     test(`drives to the goal: ${name}${extra}`, () => {

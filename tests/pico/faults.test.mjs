@@ -7,13 +7,10 @@ import {PINS} from '../../host/harness/pico/body.mjs';
 import {Chip} from '../../host/harness/pico/chip.mjs';
 import {driveOf} from '../../host/harness/pico/rig.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
-import {ROBOT, SONAR, robotWith, world} from './worlds.mjs';
+import {LONG, ROBOT, SONAR, atNight, robotWith, world} from './worlds.mjs';
 
 const MOVES_UM_S = 20000;
 const DRIVES_UM_S = 100000;
-/** By day, one fault of a kind; with WHISKER_LONG, all. */
-const LONG = Boolean(process.env.WHISKER_LONG);
-const atNight = LONG ? test : () => {};
 const LOOP = 0x20030000;
 /** Of IO_BANK0: what the handler of the pins acknowledges. */
 const INTR0 = 0xf0;
@@ -87,6 +84,7 @@ const broken = [
   ],
 ];
 
+/** One fault of a kind. */
 const BY_DAY = [
   'an unplugged sensor',
   'a short circuit of the bus',

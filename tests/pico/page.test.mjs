@@ -10,10 +10,10 @@ import {test} from 'node:test';
 import {setTimeout as sleep} from 'node:timers/promises';
 import {promisify} from 'node:util';
 import {ROOT} from '../../host/harness/pico/paths.mjs';
+import {atNight} from './worlds.mjs';
 
 const PAGE = readFileSync(join(ROOT, 'docs/build-a-pico-robot.md'), 'utf8');
 const BETWEEN_MS = 2000;
-const atNight = process.env.WHISKER_LONG ? test : () => {};
 const TRIES = 4; // on a computer that is slower than the robot
 
 /** What each of them says. */

@@ -6,13 +6,12 @@ import {Chip} from '../../host/harness/pico/chip.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
 import {driveOf} from '../../host/harness/pico/rig.mjs';
 import {UsbHost, setupOf} from '../../host/harness/pico/usb_host.mjs';
-import {ROBOT, world} from './worlds.mjs';
+import {ROBOT, atNight, world} from './worlds.mjs';
 
 const MS = 1e6;
 const MOVES_UM_S = 20000;
 const MOST_CYCLES = 1_250_000;
 const NONE = null; // a STALL
-const atNight = process.env.WHISKER_LONG ? test : () => {};
 
 /** The image at a host, without a body; it has enumerated. */
 function enumerated({seed = 1, open = true} = {}) {

@@ -2,7 +2,12 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {test} from 'node:test';
 import {ROOT} from '../../host/harness/pico/paths.mjs';
+
+export const LONG = Boolean(process.env.WHISKER_LONG);
+/** A test that takes long. */
+export const atNight = LONG ? test : () => {};
 
 export const ROBOT = join(ROOT, 'host/robots/pico.toml');
 export const SONAR = join(ROOT, 'host/robots/pico-sonar.toml');
