@@ -31,6 +31,8 @@ class Lane {
   void age() noexcept;
   /// The following are for an open lane.
   bool is_open() const noexcept { return open_; }
+  /// As open() was told.
+  const Pose& begin() const noexcept { return from_; }
   /// Clears the cells that both observations show empty to these free distances.
   void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
   /// The cells that an echo between these distances may come from are no longer clear.
@@ -41,6 +43,7 @@ class Lane {
   bool holds(const Vec& from, const Vec& way, Length radius) const noexcept;
   /// For display and tests.
   bool is_clear(Vec at) const noexcept;
+  Length length() const noexcept { return Length::from_raw(scale_.cell_um() * kCells); }
   Length half_width() const noexcept { return Length::from_raw(scale_.cell_um() * (kRows / 2)); }
 
  private:

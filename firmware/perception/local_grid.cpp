@@ -344,7 +344,9 @@ bool LocalGrid::echo_arc(const Beam& beam, Point apex, Length nearest, Length fa
     if (touched == 0) continue;
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
-    const Row cells = touched & ~to_torus(under.columns());
+    Row cells = touched & ~to_torus(under.columns());
+    // Sensors that lose walls may have cleared them, and what stands there would explain its own echo.
+    if (!takes && cells != 0 && has_lane() && clears_ == kScatterRange) cells &= ~on_lane(rows.row());
     if (takes) {
       young_[s] &= ~cells;
       old_[s] &= ~cells;

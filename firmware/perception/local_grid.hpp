@@ -73,7 +73,8 @@ class LocalGrid {
   /// An object in this beam lies between these distances. If no unclear cell explains it, all cells that the
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
   /// sensor that loses walls seen at an angle may have cleared one of them. An unclear cell explains the echo
-  /// if its centre lies at most one cell beyond `farthest`, or half a cell unless loses_only_grazed().
+  /// if its centre lies at most one cell beyond `farthest`, or half a cell unless loses_only_grazed(). For
+  /// sensors that lose walls, none explains it on an open lane.
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The same whatever explains the echo: for one that has just appeared or may be anywhere up to the minimum
   /// range, and while cells are clear that nobody has seen.
@@ -154,6 +155,8 @@ class LocalGrid {
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
   bool echo_arc(const Beam& beam, GridPoint apex, Length nearest, Length farthest, bool takes) noexcept;
+  /// The cells of this row whose centres lie on the open lane, or at most half a cell beside it.
+  Row on_lane(int row) const noexcept;
   bool leaves_window(const Beam& beam, GridPoint apex, Length farthest) const noexcept;
   static constexpr int32_t kAbeam = 80;  // a body that passes an obstacle may turn a little towards it
   // An obstacle at the guard's margin from the body comes nearer by less than that margin where the body

@@ -191,6 +191,23 @@ Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexce
           fan.nearest() == INT32_MAX ? 60_m : length_of(fan.nearest())};
 }
 
+Row LocalGrid::on_lane(int row) const noexcept {
+  const Pose& begin = lane_.begin();
+  const Point at = local(begin.at);
+  if (!nearby(at)) return 0;
+  work_.add(kArcRowUnits);
+  const Facing way = facing(begin.heading);
+  const HalfPlane left = HalfPlane::left_of(way), ahead = HalfPlane::ahead_of(way);
+  const int32_t dy = row * kUnitsPerCell + kHalfCell - at.y;
+  const int32_t beside = units(lane_.half_width()) + kHalfCell;
+  Span cells;
+  left.clip(cells, at.x, dy, -beside);
+  (-left).clip(cells, at.x, dy, -beside);
+  ahead.clip(cells, at.x, dy, 0);
+  (-ahead).clip(cells, at.x, dy, -units(lane_.length()));
+  return to_torus(cells.columns());
+}
+
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {
   if (!farther(way, kShortestStep - micrometres(1))) return false;
   work_.add(kWayUnits);

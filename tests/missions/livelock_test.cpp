@@ -7,7 +7,9 @@
 #include <string>
 
 #include "host/harness/run/pilot.hpp"
+#include "host/harness/run/runner.hpp"
 #include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
@@ -23,6 +25,31 @@ Scenario open_ground(double x, double y) {
   s.start = {{0, 0}, 0};
   s.goal.at = {x, y};
   return s;
+}
+
+Verdict verdict_of(const char* robot, worlds::Kind kind, const worlds::Options& options) {
+  Scenario s = worlds::generate(kind, options);
+  apply_robot_file(s, std::string(WHISKER_SOURCE_DIR) + "/host/robots/" + robot + ".toml");
+  return run(s).verdict;
+}
+
+// Sensors that lose walls see the jambs of a gap too far out.
+TEST(Gaps, SensorsThatLoseWallsLeadIntoNoneThatIsTooNarrow) {
+  for (const std::uint64_t seed : {1900014U, 1900065U, 1900081U, 1900090U}) {
+    worlds::Options options;
+    options.seed = seed;
+    options.discs = 50;
+    EXPECT_EQ(verdict_of("hc-sr04", worlds::Kind::discs, options), Verdict::reached) << seed;
+  }
+}
+
+// They show ground on a lane clear that a jamb reaches into.
+TEST(Gaps, SensorsThatLoseWallsTouchNothingInThem) {
+  for (const std::uint64_t seed : {95030065U, 95030121U, 95030137U}) {
+    worlds::Options options;
+    options.seed = seed;
+    EXPECT_EQ(verdict_of("layout-40", worlds::Kind::rooms, options), Verdict::reached) << seed;
+  }
 }
 
 class Planners : public testing::TestWithParam<PlannerKind> {};

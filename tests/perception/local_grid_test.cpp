@@ -107,6 +107,32 @@ TEST(LocalGrid, ATurnOfANarrowBeamThatLosesWallsClearsNothingFar) {
   EXPECT_GT(near, 100);
 }
 
+// At the edge of the cone there is always a cell that is not clear. On a lane, whose clear ground may hold
+// what such sensors do not see, it must not explain the echo.
+TEST(LocalGrid, OnALaneOnlyWhatStandsBesideItExplainsAnEcho) {
+  for (const Angle incidence : {40_deg, 90_deg}) {
+    Params p;
+    p.rangefinders.side_angle = Angle::turns(375, 3600);
+    p.rangefinders.cone = 36_deg;
+    p.rangefinders.incidence = incidence;
+    perception::LocalGrid grid;
+    grid.configure(p);
+    grid.reset({});
+    grid.open_lane({{-(50_mm), 0_mm}, Angle{}});
+    perception::ConeObservation left;
+    left.beam = perception::beam_of(mount(p.rangefinders, hal::kLeft), {});
+    left.number = hal::kLeft;
+    left.free = 200_mm;
+    grid.mark(left);
+    const Vec seen{75_mm, 70_mm};
+    ASSERT_TRUE(grid.lane().is_clear(seen));
+    grid.revoke(left.beam, 180_mm, 180_mm);
+    EXPECT_TRUE(grid.lane().is_clear(seen)) << "it may come from beside the lane";
+    grid.revoke(left.beam, 103_mm, 103_mm);
+    EXPECT_EQ(grid.lane().is_clear(seen), incidence == 90_deg);
+  }
+}
+
 TEST(LocalGrid, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
   for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);

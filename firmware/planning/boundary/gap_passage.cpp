@@ -26,6 +26,8 @@ constexpr Length kBeside = 5_mm;  // the place in front of the gap
 constexpr int8_t kMoves = 4;
 constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
 constexpr Length kOff = 1_mm;       // of the lane from the middle of the jambs
+constexpr int32_t kSure = 2;        // cells beside the planning radius, for the least width of a promised gap
+constexpr int32_t kUnsure = 4;      // the same for sensors that lose walls: they see round jambs too far out
 constexpr int32_t kSparePart = 8;   // the same, of the room on each side of the body
 constexpr Angle kAstray = 25_deg;   // of the first heading from the middle of the gap
 constexpr Angle kTilted = 2_deg;
@@ -187,7 +189,9 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
 }
 
 Length GapPassage::promised_width(const View& view) const noexcept {
-  return (view.local_grid->reach().planning + grid_cell(behaviours_.params) * 2) * 2;
+  const Params& params = behaviours_.params;
+  const int32_t cells = loses_walls(params.rangefinders) ? kUnsure : kSure;
+  return (view.local_grid->reach().planning + grid_cell(params) * cells) * 2;
 }
 
 Speed GapPassage::pace() const noexcept {

@@ -58,7 +58,7 @@ class GapPassage {
   Result sweep(const View& view, Decision& decision) noexcept;
   /// Looks for the innermost point of the jamb on this side. True: the beam is past it.
   bool jamb(const View& view) noexcept;
-  /// Nearly the width that an *unreachable* names.
+  /// Nearly the width that an *unreachable* names; more for sensors that lose walls.
   Length promised_width(const View& view) const noexcept;
   Result measured(const View& view, Decision& decision) noexcept;
   Result move(const View& view, Decision& decision) noexcept;
