@@ -13,7 +13,7 @@ constexpr uint16_t kContradicted = 3 * RangeTrust::kOnePerMetre;
 constexpr uint16_t kAbsurd = 8 * RangeTrust::kOnePerMetre;
 // Where walls vanish at an angle, contradictions are part of the operation.
 constexpr uint16_t kLossyContradicted = 20 * RangeTrust::kOnePerMetre;
-constexpr uint16_t kLossyAbsurd = 40 * RangeTrust::kOnePerMetre;
+constexpr uint16_t kLossyAbsurd = 70 * RangeTrust::kOnePerMetre;
 constexpr uint16_t kManyPhantoms = 13107;
 constexpr uint16_t kMostPhantoms = 42598;
 constexpr uint16_t kSomeFalseClears = 6554;
