@@ -6,7 +6,7 @@
 namespace whisker::sim {
 namespace {
 
-constexpr double kSpeedRounding = 1e-6;        // m/s
+constexpr double kSpeedRounding = 51e-6;       // m/s; a wheel is commanded in steps of 100e-6
 constexpr double kPressGap = 4 * kContactGap;  // a touch is reported within 3 of it
 
 double larger(double a, double b) { return a > b ? a : b; }
