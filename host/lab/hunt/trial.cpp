@@ -251,8 +251,9 @@ bool ticks_in_time(const Case& c) { return !Gaps(c.gaps, c.scenario.robot).are_l
 bool has_promised_way(const Scenario& s) { return has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01); }
 
 /// Of a drive without contact that ended: as it should not with declared sensors, drive and ticks.
-bool is_wrong(const Case& c, const std::string& end, double left_m) {
+bool is_wrong(const Case& c, const std::string& end, double left_m, double path_m) {
   const Scenario& s = c.scenario;
+  if (end == "gave_up length_budget") return path_m < metres(s.robot.boundary.length_budget) - kOffGoal_m;
   const double allowed = s.goal.tolerance_m * 1.05 + kOffGoal_m + 1.0 / s.robot.wheels.counts_per_metre;
   if (end == "reached") return left_m > allowed;
   if (end == "fault range_untrusted") return senses_as_declared(s);
@@ -319,7 +320,8 @@ Outcome attempt(Case& c) {
     return o;
   }
   const double left_m = length(driven->goal().at - plant.pose().at);
-  if (is_exact(s) && is_wrong(c, o.end, left_m)) o.finding = o.end == "reached" ? "off_goal" : o.end;
+  if (is_exact(s) && is_wrong(c, o.end, left_m, o.path_m))
+    o.finding = o.end == "reached" ? "off_goal" : o.end;
   const bool rests = o.end == "time" && c.planner && judge.rests(o.time_s);
   if (rests && is_exact(s) && ticks_in_time(c)) o.finding = "stuck";
   if (o.finding.empty() && o.work > Work::kMost) o.finding = "work";

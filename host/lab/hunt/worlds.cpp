@@ -218,7 +218,9 @@ bool take_usual(Dice& dice, Scenario& s) {
                                      worlds::Kind::maze,  worlds::Kind::enclosed};
   worlds::Options options;
   options.seed = dice.bits() >> 2;
-  Scenario made = worlds::generate(kKinds[dice.index(8)], options);
+  const worlds::Kind kind = kKinds[dice.index(8)];
+  if (kind == worlds::Kind::discs && dice.chance(0.5)) options.discs = 50;
+  Scenario made = worlds::generate(kind, options);
   worlds::scale_lengths(made, campaign::size_of(s.robot));
   if (nearest(made, made.start.at).distance_m <= free_at_start_m(s.robot)) return false;
   made.robot = s.robot;
@@ -259,6 +261,7 @@ const char* name(World world) {
 
 World draw_world(Dice& dice, Scenario& s) {
   auto world = static_cast<World>(dice.index(kWorlds));
+  if (loses_walls(s.robot.rangefinders) && dice.chance(0.5)) world = World::usual;
   // Many obstacles make slow trials.
   if (world == World::crowd && dice.chance(0.7)) world = World::scatter;
   if (world == World::usual && !take_usual(dice, s)) world = World::scatter;
