@@ -32,10 +32,15 @@ async function style(sheets) {
   return bundled({stdin: {contents, loader: 'css'}});
 }
 
-/** Without the line ends beside elements that begin lines of their own; others become blanks. */
+/**
+ * Without the line ends beside elements that begin lines of their own, others become blanks; and without the slashes
+ * and quotes that HTML does not need.
+ */
 function compact(html) {
   return html
     .replace(/\s*\n\s*/g, '\n')
+    .replace(/(<(?:meta|link|input|br|hr|img)\b[^>]*?)\s*\/>/g, '$1>')
+    .replace(/<(?!meta)\w[^<>]*/g, (tag) => tag.replace(/="([\w-]+)"(?=\s|$)/g, '=$1'))
     .replace(new RegExp(`(</?(?:${BLOCKS})\\b[^>]*>)\n`, 'g'), '$1')
     .replace(new RegExp(`\n(?=</?(?:${BLOCKS})\\b)`, 'g'), '')
     .replaceAll('\n', ' ')
