@@ -11,8 +11,8 @@ constexpr int32_t kStillPeriods = 3;
 constexpr int32_t kHeldPeriods = 20;
 constexpr int32_t kHeldReadings = 4;
 
-Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noexcept {
-  const Speed v = min(approach_speed(abs(rest), params), limit_speed);
+Speed signed_approach(Length rest, Speed limit_speed, Duration late, const Params& params) noexcept {
+  const Speed v = min(stopping_speed(abs(rest), derived::settle_time(params) + late, params), limit_speed);
   return rest < Length{} ? -v : v;
 }
 
@@ -60,6 +60,8 @@ void MotionController::approach(Length rest, Duration elapsed) noexcept {
 
 VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Duration held_for,
                                           const Params& params) noexcept {
+  // A turn that overshoots by more than what was left of it would never end.
+  late_ = max(elapsed - params.safety.period, late_ * 7 / 8);
   if (finished_) return {};
   const Angle error = current_.heading - pose.heading;
   switch (current_.kind) {
@@ -94,7 +96,8 @@ VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Para
   }
   const Length way = arc(error, params.body.track / 2);
   approach(abs(way), elapsed);
-  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_on_the_spot_), params), true};
+  const Speed fastest = min(params.wheels.max_speed, fastest_on_the_spot_);
+  return {Speed{}, signed_approach(way, fastest, late_, params), true};
 }
 
 VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration elapsed,
@@ -107,7 +110,7 @@ VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration 
   approach(rest, elapsed);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
   const Speed fastest = min(params.wheels.max_speed, fastest_on_the_spot_);
-  const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, params);
+  const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, late_, params);
   // At most half the forward speed, so that the correction never reverses a wheel.
   return {forward, limit(correction, forward / 2), true};
 }

@@ -55,6 +55,7 @@ class MotionController {
   bool settled_ = false;
   Duration still_for_;
   Duration waiting_for_;
+  Duration late_;   // the latest of the last ticks, after its period
   Length nearest_;  // smallest remaining distance of this manoeuvre so far
 };
 
