@@ -125,6 +125,7 @@ export class Body {
     this.turns = [0, 0]; // and still to turn
     this.sent = [];
     this.misses = []; // of the flash's cache in each tick
+    this.atRest = new Set(); // the numbers of the ticks before which the motors had no duty
     this.ticks = []; // cycles of the core, with those of the handlers within
     chip.attach(this);
   }
@@ -136,10 +137,13 @@ export class Body {
     mcu.gpio[1].setInputValue(true);
     this.led = false;
     mcu.gpio[PINS.led].addListener((value) => (this.led = value === 1));
-    let [began, missed] = [0, 0];
+    let [began, missed, rests] = [0, 0, true];
     mcu.gpio[PINS.tick].addListener((value) => {
-      if (value === 1) [began, missed] = [mcu.core.cycles, this.chip.misses];
-      else if (began !== 0) {
+      if (value === 1) {
+        [began, missed] = [mcu.core.cycles, this.chip.misses];
+        rests = this.motors.duty(0) === 0 && this.motors.duty(1) === 0;
+      } else if (began !== 0) {
+        if (rests) this.atRest.add(this.ticks.length);
         this.ticks.push(mcu.core.cycles - began);
         this.misses.push(this.chip.misses - missed);
       }

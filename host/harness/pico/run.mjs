@@ -42,21 +42,22 @@ drive.until(limit * 1000, (now) => {
 const verdict = drive.rig.verdict();
 drive.close();
 const {chip, body} = drive;
-const sorted = [...body.ticks].sort((a, b) => a - b);
+const driving = body.ticks.filter((_, i) => !body.atRest.has(i));
 const seconds = Number(process.hrtime.bigint() - began) / 1e9;
 const figures = {
   ...verdict,
   commands: drive.commands,
   first_command_ms: drive.firstCommandMs,
-  tick_cycles_mean: Math.round(sorted.reduce((sum, cycles) => sum + cycles, 0) / sorted.length),
-  tick_cycles_worst: sorted.at(-1),
+  tick_cycles_mean: Math.round(body.ticks.reduce((sum, cycles) => sum + cycles, 0) / body.ticks.length),
+  tick_cycles_worst: Math.max(...driving),
+  tick_cycles_worst_at_rest: Math.max(...[...body.atRest].map((i) => body.ticks[i])),
   ...(countsMisses && {
     misses_mean: Math.round(body.misses.reduce((sum, n) => sum + n, 0) / body.misses.length),
     tick_cycles_worst_with_misses: Math.max(
-      ...body.ticks.map((n, i) => n + XIP_MISS_CYCLES * body.misses[i]),
+      ...body.ticks.map((n, i) => (body.atRest.has(i) ? 0 : n + XIP_MISS_CYCLES * body.misses[i])),
     ),
   }),
-  ticks_over_3_ms: sorted.filter((cycles) => cycles > 375000).length,
+  ticks_over_3_ms: body.ticks.filter((cycles) => cycles > 375000).length,
   stack_bytes: drive.stack,
   resets: chip.resets.length - 1,
   faults: chip.faults,
