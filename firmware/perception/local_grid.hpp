@@ -74,7 +74,7 @@ class LocalGrid {
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
   /// sensor that loses walls seen at an angle may have cleared one of them. An unclear cell explains the echo
   /// if its centre lies at most one cell beyond `farthest`, or half a cell unless loses_only_grazed(). For
-  /// sensors that lose walls, none explains it on an open lane.
+  /// sensors that lose walls, no cell on an open lane does.
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The same whatever explains the echo: for one that has just appeared or may be anywhere up to the minimum
   /// range, and while cells are clear that nobody has seen.

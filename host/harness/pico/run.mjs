@@ -42,20 +42,20 @@ drive.until(limit * 1000, (now) => {
 const verdict = drive.rig.verdict();
 drive.close();
 const {chip, body} = drive;
-const driving = body.ticks.filter((_, i) => !body.atRest.has(i));
+/** Of the ticks with the motors at rest, or of the others; 0: there are none. */
+const worst = (atRest, cost = (i) => body.ticks[i]) =>
+  body.ticks.reduce((most, _, i) => (body.atRest.has(i) === atRest ? Math.max(most, cost(i)) : most), 0);
 const seconds = Number(process.hrtime.bigint() - began) / 1e9;
 const figures = {
   ...verdict,
   commands: drive.commands,
   first_command_ms: drive.firstCommandMs,
   tick_cycles_mean: Math.round(body.ticks.reduce((sum, cycles) => sum + cycles, 0) / body.ticks.length),
-  tick_cycles_worst: Math.max(...driving),
-  tick_cycles_worst_at_rest: Math.max(...[...body.atRest].map((i) => body.ticks[i])),
+  tick_cycles_worst: worst(false),
+  tick_cycles_worst_at_rest: worst(true),
   ...(countsMisses && {
     misses_mean: Math.round(body.misses.reduce((sum, n) => sum + n, 0) / body.misses.length),
-    tick_cycles_worst_with_misses: Math.max(
-      ...body.ticks.map((n, i) => (body.atRest.has(i) ? 0 : n + XIP_MISS_CYCLES * body.misses[i])),
-    ),
+    tick_cycles_worst_with_misses: worst(false, (i) => body.ticks[i] + XIP_MISS_CYCLES * body.misses[i]),
   }),
   ticks_over_3_ms: body.ticks.filter((cycles) => cycles > 375000).length,
   stack_bytes: drive.stack,
