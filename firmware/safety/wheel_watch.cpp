@@ -13,9 +13,12 @@ constexpr Length kMostHeld = Length::from_raw(INT32_C(65535) << kHeldShift);
 
 void WheelWatch::configure(const Params& params) noexcept {
   um_per_count_ = divide_rounded(1000000, params.wheels.counts_per_metre);
-  // A command and its effect are up to one gap apart.
+  // A command and its effect are up to one gap apart, or the lag that a wheel does not have; twice that, from
+  // full speed to the other direction.
   const Length gap = params.wheels.max_speed * (longest_gap(params) * 2);
-  stretch_ = max(max(for_body(params, kStretch), way(kCounts)), gap);
+  const Length lag = params.wheels.max_speed * (params.wheels.motor_lag * 2);
+  stretch_ = max(max(for_body(params, kStretch), way(kCounts)), max(gap, lag));
+  ahead_ = gap + lag;
 }
 
 int32_t WheelWatch::steady(Wheel& wheel, int32_t counts) noexcept {
@@ -51,7 +54,9 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
     return Finding::none;
   }
   if (wheel.counted / 3 > wheel.expected || apart > (wheel.expected + wheel.counted) * 3 / 4) {
-    return Finding::runaway;
+    if (max(wheel.expected, wheel.counted) < ahead_) return Finding::none;
+    // A wheel with less lag than stated swings farther to and fro, but not away.
+    if (apart > ahead_ / 2) return Finding::runaway;
   }
   const int16_t slack = wheel.slack;
   wheel = {};

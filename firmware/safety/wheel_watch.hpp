@@ -11,10 +11,11 @@
 namespace whisker::safety {
 
 /// Compares the counts of each encoder with the commands of its wheel, delayed by the motor lag, over a
-/// stretch of travel: 40 mm for the reference body, ten counts, or the travel in two of the longest gaps
-/// between ticks at full speed, whichever is longest. A wheel that follows within a factor of three never
-/// causes a fault; wheel slip and a small error of the stated lag are far below that. A wheel that
-/// swings within its counts may count nothing.
+/// stretch of travel: 40 mm for the reference body, ten counts, or the travel at full speed in twice the
+/// longest gap between ticks or twice the lag, whichever is longest; a runaway, over the travel in twice both
+/// together if that is longer. A wheel that follows within a factor of three never causes a fault, nor one
+/// that follows sooner than stated; wheel slip is far below that. A wheel that swings within its counts may
+/// count nothing.
 class WheelWatch {
  public:
   enum class Finding : uint8_t {
@@ -49,6 +50,7 @@ class WheelWatch {
 
   Wheel wheel_[2];
   Length stretch_;
+  Length ahead_;  // the least way of a runaway
   int64_t um_per_count_ = 0;
 };
 

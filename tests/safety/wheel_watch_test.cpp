@@ -78,5 +78,33 @@ TEST(WheelWatch, AShortHoldIsForgotten) {
     EXPECT_EQ(held(3, released), WheelWatch::Finding::none) << released;
 }
 
+/// The reference body with this lag, and wheels without one. They are asked for half a second each way, at
+/// full acceleration, and counted without an error.
+TEST(WheelWatch, WheelsThatFollowSoonerThanStatedAreNoRunaway) {
+  for (const Duration lag : {50_ms, 200_ms, 500_ms}) {
+    Params params;
+    params.wheels.motor_lag = lag;
+    WheelWatch watch;
+    watch.configure(params);
+    const double full = static_cast<double>(params.wheels.max_speed.raw());
+    const double step = static_cast<double>(params.wheels.max_acceleration.raw()) * kTick.raw() / 1000;
+    double command = 0, expected = 0, way_um = 0;
+    std::int32_t last = 0;
+    for (int tick = 0; tick < 2000; ++tick) {
+      const double wanted = tick / 50 % 2 == 0 ? full : -full;
+      command += std::fmax(-step, std::fmin(step, wanted - command));
+      expected += (command - expected) * kTick.raw() / lag.raw();
+      const Speed speed = Speed::from_raw(static_cast<std::int32_t>(expected));
+      watch.expect({speed, speed}, kTick);
+      way_um += command * kTick.raw() / 1000;
+      const auto now = static_cast<std::int32_t>(
+          std::floor(way_um * static_cast<double>(params.wheels.counts_per_metre) / 1e6));
+      ASSERT_EQ(watch.judge({now - last, now - last}), WheelWatch::Finding::none)
+          << lag.raw() << " ms, tick " << tick;
+      last = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whisker::safety

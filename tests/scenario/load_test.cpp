@@ -53,6 +53,7 @@ TEST(Scenario, TakesEveryKeyFromItsFile) {
   EXPECT_EQ(s.noise.heading_drift_deg_per_sqrt_m, 0.3);
   EXPECT_EQ(s.noise.wheel_scale_common_sigma, 0.001);
   EXPECT_EQ(s.noise.wheel_slip, 0.05);
+  EXPECT_EQ(s.noise.motor_lag_shorter, 0.5);
   EXPECT_EQ(s.noise.gyro_bias_dps, 1);
   EXPECT_EQ(s.noise.gyro_warm_up_dps, 0.1);
   EXPECT_EQ(s.noise.gyro_walk_deg_per_sqrt_h, 0.4);

@@ -70,6 +70,7 @@ sim::NoiseSpec noise_spec(const Noise& n) {
 sim::RobotSpec robot_spec(const Scenario& scenario) {
   const Sensor& sensor = scenario.sensor;
   sim::RobotSpec spec = sim::robot_spec(scenario.robot);
+  spec.motor_lag *= 1 - scenario.noise.motor_lag_shorter;
   if (sensor.incidence_deg < 90) spec.incidence = sensor.incidence_deg * kDegree;
   set_width(sensor, spec);
   set_reach(sensor, spec);

@@ -24,6 +24,7 @@ constexpr NoiseKey kNoiseKeys[] = {
     {"wheel_scale_common_sigma", &Noise::wheel_scale_common_sigma, kWheelScaleSigma,
      "of both encoders, once a run"},
     {"wheel_slip", &Noise::wheel_slip, kWheelSlip, "mean share of travel lost while speeding up"},
+    {"motor_lag_shorter", &Noise::motor_lag_shorter, kProbability, "share by which the wheels are quicker"},
     {"gyro_bias_dps", &Noise::gyro_bias_dps, kGyroBias, "standard deviation, once a run"},
     {"gyro_warm_up_dps", &Noise::gyro_warm_up_dps, kGyroBias, "of the change of the bias in 10 minutes"},
     {"gyro_walk_deg_per_sqrt_h", &Noise::gyro_walk_deg_per_sqrt_h, kGyroWalk, "angle random walk"},

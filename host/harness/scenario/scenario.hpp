@@ -34,6 +34,7 @@ struct Noise {
   double heading_drift_deg_per_sqrt_m = 0;
   double wheel_scale_common_sigma = 0;  ///< the same error of both encoders, drawn once per run
   double wheel_slip = 0;                ///< mean share of a wheel's travel that is lost while it speeds up
+  double motor_lag_shorter = 0;         ///< share by which the wheels' lag is shorter than the robot believes
   double gyro_bias_dps = 0;             ///< standard deviation of the bias, drawn once per run
   double gyro_warm_up_dps = 0;          ///< of the change of the bias in the first 10 minutes
   double gyro_walk_deg_per_sqrt_h = 0;

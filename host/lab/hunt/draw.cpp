@@ -90,7 +90,7 @@ void change_one(Dice& dice, Case& c) {
     case 1: change_keys(dice, s.robot, 1 + dice.index(3)); return;
     case 2:
     case 3: return change_world(dice, s);
-    case 4: return draw_truth(dice, s);
+    case 4: draw_truth(dice, s); return draw_wheels(dice, s);
     case 5: c.gaps = dice.chance(0.5) ? 0 : dice.bits() >> 1; return;
     case 6: return dice.chance(0.3) ? s.events.clear() : draw_events(dice, s);
     default: break;
@@ -123,6 +123,7 @@ Drawn draw_case(std::uint64_t seed) {
   set_time(dice, drawn.c);
   if (dice.chance(kEventful)) draw_kept_events(dice, s);
   keep_base_in_time(drawn.c);
+  draw_wheels(dice, s);
   return drawn;
 }
 

@@ -117,6 +117,10 @@ void draw_truth(Dice& dice, Scenario& s) {
   if (dice.chance(0.2)) draw_fixes(dice, s.noise);
 }
 
+void draw_wheels(Dice& dice, Scenario& s) {
+  if (dice.chance(0.2)) s.noise.motor_lag_shorter = dice.chance(0.3) ? 1 : dice.uniform(0, 1);
+}
+
 bool senses_as_declared(const Scenario& s) {
   const RangefinderParams& r = s.robot.rangefinders;
   for (int i = 0; i < 3; ++i) {

@@ -13,6 +13,8 @@ double free_at_start_m(const Params& params);
 
 /// Sensors that see at least what the robot believes, and noise within what it declares.
 void draw_truth(Dice& dice, Scenario& scenario);
+/// Wheels that follow a command as soon as the robot believes, or sooner.
+void draw_wheels(Dice& dice, Scenario& scenario);
 
 /// No beam sees more than the robot believes; what a wider cone shows contradicts the other beams.
 bool senses_as_declared(const Scenario& scenario);

@@ -63,7 +63,10 @@ class Shrinker {
     if (best_.gaps != 0) attempt([](Case& c) { c.gaps = 0; });
     if (best_.scenario.bounds) attempt([](Case& c) { c.scenario.bounds.reset(); });
     const Noise& n = best_.scenario.noise;
-    if (n.range_dropout != 0 || n.fix_every_m != 0) attempt([](Case& c) { c.scenario.noise = {}; });
+    if (n.range_dropout != 0 || n.fix_every_m != 0 || n.motor_lag_shorter != 0) {
+      attempt([](Case& c) { c.scenario.noise = {}; });
+    }
+    if (n.motor_lag_shorter != 0) attempt([](Case& c) { c.scenario.noise.motor_lag_shorter = 0; });
     if (n.fix_sigma_m != 0) attempt([](Case& c) { c.scenario.noise.fix_sigma_m = 0; });
     if (n.fix_sigma_deg != 0) attempt([](Case& c) { c.scenario.noise.fix_sigma_deg = 0; });
     const sim::Vec2 at = best_.scenario.start.at;

@@ -153,12 +153,17 @@ struct Rolling {
     p.wheels.counts_per_metre = static_cast<std::int32_t>(dice.log_uniform(800, 20000));
     p.body.radius = millimetres(30 + dice.index(200));
     p.wheels.max_speed = Speed::from_raw(1000 * (50 + dice.index(450)));
+    p.wheels.motor_lag = milliseconds(dice.chance(0.5) ? dice.index(500) : 50);
     watch.configure(p);
   }
+  double at_full_speed(Duration time) const { return si(p.wheels.max_speed) * time.raw() * 1e-3; }
   double stretch() const {
     const double scaled = 0.04 * metres(p.body.radius) / metres(Params{}.body.radius);
-    return std::max(
-        {scaled, 10.0 / p.wheels.counts_per_metre, 2 * si(p.wheels.max_speed) * longest_gap(p).raw() * 1e-3});
+    return std::max({scaled, 10.0 / p.wheels.counts_per_metre, 2 * at_full_speed(longest_gap(p)),
+                     2 * at_full_speed(p.wheels.motor_lag)});
+  }
+  double of_a_runaway() const {
+    return std::max(stretch(), 2 * at_full_speed(longest_gap(p) + p.wheels.motor_lag));
   }
   WheelWatch::Finding tick(Speed left, Speed right, double share_left, double share_right,
                            Duration elapsed = 10_ms) {
@@ -191,6 +196,31 @@ std::string judge_follow(Dice& dice) {
   return "";
 }
 
+/// Wheels that have only a share of the stated lag, driven to and fro.
+std::string judge_sooner(Dice& dice) {
+  Rolling r(dice);
+  const double full = si(r.p.wheels.max_speed), tick_s = 0.01;
+  const double step = dice.log_uniform(0.1, 10) * tick_s, share = dice.uniform(0, 1);
+  const double lag_s = r.p.wheels.motor_lag.raw() * 1e-3;
+  const int half = 5 + dice.index(200);
+  const auto follow = [&](double& at, double lag, double command) {
+    at = lag > 0 ? command + (at - command) * std::exp(-tick_s / lag) : command;
+  };
+  double command = 0, stated = 0, real = 0;
+  for (int tick = 0; tick < 1500; ++tick) {
+    const double wanted = tick / half % 2 == 0 ? full : -full;
+    command += std::clamp(wanted - command, -step, step);
+    follow(stated, lag_s, command);
+    follow(real, lag_s * share, command);
+    const double ratio = std::fabs(stated) > 1e-6 ? real / stated : 0;
+    const Speed expected = speed(ratio == 0 ? real : stated);
+    if (r.tick(expected, expected, ratio == 0 ? 1 : ratio, ratio == 0 ? 1 : ratio) !=
+        WheelWatch::Finding::none)
+      return "a wheel that follows sooner is no fault";
+  }
+  return "";
+}
+
 std::string judge_disobey(Dice& dice) {
   Rolling r(dice);
   const bool second = dice.chance(0.5);
@@ -199,7 +229,8 @@ std::string judge_disobey(Dice& dice) {
   const WheelWatch::Finding due = how < 2 ? WheelWatch::Finding::stalled : WheelWatch::Finding::runaway;
   const Speed v = r.p.wheels.max_speed * (1 + dice.index(4)) / 4;
   const Speed signed_v = dice.chance(0.5) ? v : -v;
-  const double stretch = r.stretch(), count = 1.0 / r.p.wheels.counts_per_metre;
+  const double stretch = how < 2 ? r.stretch() : r.of_a_runaway();
+  const double count = 1.0 / r.p.wheels.counts_per_metre;
   double commanded = 0;
   WheelWatch::Finding found = WheelWatch::Finding::none;
   while (commanded < 3 * stretch && found == WheelWatch::Finding::none) {
@@ -304,7 +335,8 @@ std::string judge_warning(Dice& dice) {
 
 std::string judge_wheels(Dice& dice) {
   for (int i = 0; i < 15; ++i) {
-    for (const JudgePart judge : {judge_follow, judge_disobey, judge_held, judge_stall, judge_warning}) {
+    for (const JudgePart judge :
+         {judge_follow, judge_sooner, judge_disobey, judge_held, judge_stall, judge_warning}) {
       std::string wrong = judge(dice);
       if (!wrong.empty()) return wrong;
     }
