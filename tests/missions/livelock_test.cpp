@@ -52,6 +52,20 @@ TEST(Gaps, SensorsThatLoseWallsTouchNothingInThem) {
   }
 }
 
+// A body of 1 m sees 1 m of ground beyond its rim, and loses this wall again and again.
+TEST(Escapes, ProveNothing) {
+  Scenario s = open_ground(-35.6, 29.9);
+  s.start.heading = std::atan2(29.9, -35.6);
+  s.goal.tolerance_m = 1.1;
+  s.robot.body.radius = 1_m;
+  s.polygons.push_back({{-17.52, -0.35}, {-3.31, 17.21}, {-3.65, 17.49}, {-17.87, -0.07}});
+  s.time_limit_s = 400;
+  RunOptions options;
+  options.planner = PlannerKind::boundary;
+  const RunResult r = run(s, options);
+  EXPECT_EQ(r.verdict, Verdict::gave_up) << r.detail;
+}
+
 class Planners : public testing::TestWithParam<PlannerKind> {};
 INSTANTIATE_TEST_SUITE_P(All, Planners, testing::ValuesIn(kPlannersOfTheCore),
                          [](const auto& of) { return std::string(name(of.param)); });

@@ -254,7 +254,12 @@ bool BoundaryPlanner::may_leave(const View& view) const noexcept {
 void BoundaryPlanner::escape(const View& view) noexcept {
   // A held body that turns on the spot has followed no boundary.
   if (!behaviours_.progress.rests() && ++escapes_ > kEscapes) {
-    give_up_goal(view);
+    // A loop that parts nothing proves nothing.
+    if (approach_.has_guide() || loop_.may_part(began_, goal_.at, wall_)) {
+      give_up_goal(view);
+    } else {
+      end(Event::stuck, Outcome::gave_up);
+    }
     return;
   }
   approach_.measure_anew(view, target_.distance);

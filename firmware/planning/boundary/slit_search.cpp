@@ -10,9 +10,9 @@ constexpr Length kEvery = 20_mm;
 constexpr Length kHalfWidth = 45_mm;
 constexpr int32_t kUnknown = 2;   // cells
 constexpr Length kJamb = 130_mm;  // from the middle of a slit to the paths that its sides block
-constexpr Length kWall = 320_mm;  // the same for the sides of a slit in a wall
+constexpr Length kWall = 300_mm;  // the same for the sides of a slit in a wall
 constexpr Length kSame = 150_mm;  // the distance between two views of one slit
-constexpr Length kTried = 50_mm;  // from a slit that was tried
+constexpr Length kTried = 80_mm;  // from a slit that was tried
 constexpr Length kNear = 300_mm;  // a slit that was taken
 constexpr Length kHere = 500_mm;
 constexpr Length kExpected = 1500_mm;  // of travel
@@ -45,7 +45,9 @@ void SlitSearch::look(const View& view, Angle ahead) noexcept {
       (known_ >> newest_ & 1U) != 0 && !farther(at - slits_[newest_].at, for_body(params, kSame));
   if (!same) newest_ = static_cast<int8_t>((newest_ + 1) % kKept);
   slits_[newest_] = {at, ahead};
-  const bool in_wall = blocked(kWall) && blocked(-kWall);
+  // From another place, beams may have lost the wall.
+  const bool was = same && (in_wall_ >> newest_ & 1U) != 0;
+  const bool in_wall = was || (blocked(kWall) && blocked(-kWall));
   in_wall_ = static_cast<uint8_t>((in_wall_ & ~(1U << newest_)) | (in_wall ? 1U << newest_ : 0U));
   known_ = static_cast<uint8_t>(known_ | 1U << newest_);
 }

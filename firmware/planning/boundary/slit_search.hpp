@@ -40,7 +40,7 @@ class SlitSearch {
   Pose take(const View& view) noexcept;
   /// The slit that was taken last lies within 0.3 m of this place.
   bool taken_near(Vec at) const noexcept;
-  /// The slit that was taken last was tried in vain: none within 50 mm of the last three such slits is tried.
+  /// The slit that was taken last was tried in vain: none within 80 mm of the last three such slits is tried.
   /// After six such attempts in a mission, there are no slits.
   void end_attempt() noexcept;
 

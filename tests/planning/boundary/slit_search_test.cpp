@@ -126,9 +126,9 @@ TEST_F(SlitSearchTest, KnowsNoSlitWhereOneWasTried) {
   EXPECT_FALSE(slits.known());
   slits.look(slit_at({}).view(), kAhead);
   EXPECT_FALSE(slits.known()) << "the same one";
-  slits.look(slit_at({40_mm, 0_mm}).view(), kAhead);
+  slits.look(slit_at({60_mm, 0_mm}).view(), kAhead);
   EXPECT_FALSE(slits.known()) << "the same one, from beside";
-  slits.look(slit_at({70_mm, 0_mm}).view(), kAhead);
+  slits.look(slit_at({100_mm, 0_mm}).view(), kAhead);
   EXPECT_TRUE(slits.known()) << "another one";
 }
 
