@@ -206,6 +206,7 @@ void Robot::ask_planner(const planning::View& view) noexcept {
   if (decision.lane.opens) chassis_.perception().open_lane(decision.lane.from);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
+  if (chassis_.supervisor().overstays(view.pose.at, running, view.elapsed)) aimed(planning::Why::no_exit);
   if (refused_ != planning::Why::none) {
     decision.outcome = planning::Outcome::gave_up;
     decision.mode = planning::Mode::gave_up;
@@ -216,7 +217,6 @@ void Robot::ask_planner(const planning::View& view) noexcept {
   // It waits for its search, not for the readings.
   if (view.local_grid->work().is_cut_short()) waits_since_ = chassis_.now();
   chassis_.supervisor().check_look(waits, chassis_.now() - waits_since_);
-  chassis_.supervisor().check_place(view.pose.at, running, view.elapsed);
 }
 
 /// The planner is not asked meanwhile.

@@ -111,15 +111,15 @@ void Supervisor::check_look(bool waits, Duration stood) noexcept {
   if (waits && stood > longest) fail(Fault::range_unsteady, health_.unsteady_looks);
 }
 
-void Supervisor::check_place(Vec at, bool running, Duration elapsed) noexcept {
+bool Supervisor::overstays(Vec at, bool running, Duration elapsed) noexcept {
   if (!running) bumps_ = 0;
   if (!running || farther(at - place_, for_body(params_, kPlace))) {
     place_ = at;
     at_place_for_ = Duration{};
-    return;
+    return false;
   }
   at_place_for_ += elapsed;
-  if (at_place_for_ > longest_stay_) fail(Fault::no_progress, health_.no_progress);
+  return at_place_for_ > longest_stay_;
 }
 
 void Supervisor::check_bumper(bool read) noexcept {

@@ -43,8 +43,8 @@ class Supervisor {
   void check_trust(RangeLevel level) noexcept;
   /// How long the body has stood for a static scan that waits.
   void check_look(bool waits, Duration stood) noexcept;
-  /// Bounds the time in one place, whatever the planner waits for or tries.
-  void check_place(Vec at, bool running, Duration elapsed) noexcept;
+  /// The body has been in one place for too long, whatever the planner waits for or tries. Once per tick.
+  bool overstays(Vec at, bool running, Duration elapsed) noexcept;
   /// Whether the bumper gave its state.
   void check_bumper(bool read) noexcept;
   /// A bump switch was pressed here. Bounds the presses near one place in a mission.

@@ -108,7 +108,7 @@ std::string judge_bumps(Dice& dice) {
     const Vec at = same ? Vec{place * dice.index(90) / 100, Length{}} : Vec{place * i * 11 / 10, Length{}};
     if (i == 1 && same) w.supervisor.check_bump({});
     w.supervisor.check_bump(at);
-    if (pauses && i % 20 == 0) w.supervisor.check_place({}, false, 10_ms);
+    if (pauses && i % 20 == 0) w.supervisor.overstays({}, false, 10_ms);
     const bool due = same && !pauses && i + 1 > 30;
     if (w.has(Fault::no_progress) != due) return "other presses are a fault";
     if (w.health.bumps != static_cast<std::uint32_t>(same ? i + 1 : i)) return "another count of presses";
@@ -124,12 +124,14 @@ std::string judge_place(Dice& dice) {
   const Length place = for_body(w.p, 30_mm);
   const int kind = dice.index(3);
   int seconds = 0;
-  for (; seconds < 3000 && !w.supervisor.faulted(); ++seconds) {
+  bool overstays = false;
+  for (; seconds < 3000 && !overstays; ++seconds) {
     const Vec at{kind == 0 && seconds % 50 < 25 ? place * 13 / 10 : place * (seconds % 2) / 2, Length{}};
-    w.supervisor.check_place(at, kind != 1, 1000_ms);
+    overstays = w.supervisor.overstays(at, kind != 1, 1000_ms);
   }
-  if (kind < 2) return w.supervisor.faulted() ? "a body that leaves or rests is stuck" : "";
-  if (!w.has(Fault::no_progress) || w.health.no_progress != 1) return "a place is never left";
+  if (w.supervisor.faulted()) return "a body that stays is a fault";
+  if (kind < 2) return overstays ? "a body that leaves or rests is stuck" : "";
+  if (!overstays) return "a place is never left";
   const double turn_s = std::max(2 * sim::kPi / (turn_rate(w.p).raw() * 1e-6),
                                  sim::kPi * metres(w.p.body.track) / (w.p.wheels.max_speed.raw() * 1e-6));
   const double least = derived::stalled_after(w.p).raw() * 1e-3 * 60 + 30 * turn_s;
