@@ -16,7 +16,7 @@ enum class Fault : uint8_t {
   wheels_stalled,  ///< commanded to move, but the counts of one or both wheels stand still
   range_unsteady,  ///< a static scan waits too long: readings of a beam arrive but never agree
   no_progress,     ///< a turn or step comes no nearer to its end, or the robot presses a bump switch in one
-                ///< place again and again
+                   ///< place again and again
   pose_out_of_range,  ///< the body left kBodyLimit, or was placed beyond kPlaceLimit (math/region.hpp)
   wheel_runaway,      ///< a wheel turns much further than commanded, or backwards
   bumper_lost,        ///< the bumper gave no state too often within a short time

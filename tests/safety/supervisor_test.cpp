@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/robot.hpp"
+#include "tests/robot/fake_board.hpp"
+
 namespace whisker::safety {
 namespace {
 
@@ -40,6 +43,51 @@ TEST(Supervisor, WhoLeavesThePlaceOrRestsIsNotCounted) {
   for (int s = 0; s < 10000; ++s) EXPECT_FALSE(supervisor.overstays({}, false, 1000_ms));
   for (int s = 0; s < 10000; ++s)
     EXPECT_FALSE(supervisor.overstays({millimetres(s % 100 < 50 ? 0 : 40), {}}, true, 1000_ms));
+}
+
+/// Turns to and fro as long as there is a goal.
+struct Undecided final : planning::Planner {
+  void set_goal(const planning::Goal&) noexcept override { running_ = true; }
+  void move_goal(Vec) noexcept override {}
+  void cancel() noexcept override { running_ = false; }
+  planning::Decision step(const planning::View&) noexcept override {
+    planning::Decision d;
+    d.outcome = running_ ? planning::Outcome::running : planning::Outcome::none;
+    d.manoeuvre.kind = planning::ManoeuvreKind::cruise;
+    if (running_) d.manoeuvre.turning = ++ticks_ / 120 % 2 == 0 ? 65_mm_per_s : -65_mm_per_s;
+    return d;
+  }
+
+ private:
+  bool running_ = false;
+  int ticks_ = 0;
+};
+
+TEST(Supervisor, ARobotThatStaysInOnePlaceGivesUpAndTakesTheNextGoal) {
+  const Params params;
+  test::FakeBoard board;
+  Undecided planner;
+  Robot robot(board, board, planner, params);
+  std::uint32_t now = 0;
+  for (int mission = 0; mission < 2; ++mission) {
+    ASSERT_TRUE(robot.set_goal({{3_m, 0_m}, 100_mm}));
+    int ticks = 0;
+    do {
+      robot.tick(Time::from_raw(now += 10));
+      board.pass();
+    } while (robot.status().decision.outcome == planning::Outcome::running && ++ticks < 60000);
+    EXPECT_EQ(robot.status().decision.outcome, planning::Outcome::gave_up);
+    EXPECT_EQ(robot.status().decision.why, planning::Why::no_exit);
+    EXPECT_EQ(robot.status().health.fault, Fault::none);
+    EXPECT_NEAR(ticks, 100 * longest_stay_s(params), 200);
+    for (int i = 0; i < 100; ++i) {
+      robot.tick(Time::from_raw(now += 10));
+      board.pass();
+    }
+    EXPECT_EQ(robot.status().decision.outcome, planning::Outcome::gave_up) << "it stays so";
+    EXPECT_EQ(board.commanded().left, 0);
+    EXPECT_EQ(board.commanded().right, 0);
+  }
 }
 
 TEST(Supervisor, PressesInOnePlaceAreBounded) {
