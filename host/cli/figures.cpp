@@ -34,7 +34,7 @@ struct ClassPicture {
 constexpr ClassPicture kClassPictures[] = {
     {"boundary_15_discs.svg", worlds::Kind::discs, {6, 15, false, false}},
     {"boundary_30_discs.svg", worlds::Kind::discs, {8, {}, false, false}},
-    {"boundary_50_discs.svg", worlds::Kind::discs, {7, 50, false, false}},
+    {"boundary_50_discs.svg", worlds::Kind::discs, {26, 50, false, false}},
     {"boundary_75_discs.svg", worlds::Kind::discs, {14, 75, true, false}},
     {"boundary_u_trap.svg", worlds::Kind::u_trap, {8, {}, false, false}},
     {"boundary_spiral.svg", worlds::Kind::spiral, {4, {}, false, false}},
