@@ -93,8 +93,13 @@ ThroughDoors through_doors(PlannerKind planner) {
       EXPECT_EQ(d.complaint, "");
       const double ratio = d.result.time_s / free_s;
       mean.all += ratio / (kWidths * kStarts);
-      if (bodies >= 1.75) ++wide, mean.wide += ratio;
-      if (bodies >= 1.65 && bodies < 1.75) ++narrow, mean.narrow += ratio;
+      if (bodies >= 1.75) {
+        ++wide;
+        mean.wide += ratio;
+      } else if (bodies >= 1.65) {
+        ++narrow;
+        mean.narrow += ratio;
+      }
     }
   }
   mean.narrow /= narrow;

@@ -257,8 +257,9 @@ bool is_wrong(const Case& c, const std::string& end, double left_m, double path_
   const double allowed = s.goal.tolerance_m * 1.05 + kOffGoal_m + 1.0 / s.robot.wheels.counts_per_metre;
   if (end == "reached") return left_m > allowed;
   if (end == "fault range_untrusted") return senses_as_declared(s);
-  const bool late = end == "fault range_lost" || end == "fault range_unsteady" || end == "fault no_progress";
-  if (late) return ticks_in_time(c);
+  const bool by_late_ticks =
+      end == "fault range_lost" || end == "fault range_unsteady" || end == "fault no_progress";
+  if (by_late_ticks) return ticks_in_time(c);
   const bool gives_up = end == "unreachable" || end.rfind("gave_up", 0) == 0;
   if (gives_up) return ticks_in_time(c) && has_promised_way(s);
   return end.rfind("fault", 0) == 0;

@@ -103,6 +103,19 @@ void box(Clutter& world, Vec2 centre, double half) {
   for (int i = 0; i < 4; ++i) wall(world, centre + c[i], centre + c[(i + 1) % 4]);
 }
 
+struct Door {
+  double x, y, width;
+};
+
+/// A closed room from `back` to `end`, 2 `half` wide, with a wall across it that has this door.
+template <class Place>
+void room_with_door(Clutter& world, const Place& place, double back, double end, double half, Door door) {
+  const Vec2 corners[] = {place(back, -half), place(end, -half), place(end, half), place(back, half)};
+  for (int i = 0; i < 4; ++i) wall(world, corners[i], corners[(i + 1) % 4]);
+  wall(world, place(door.x, -half), place(door.x, door.y - door.width / 2));
+  wall(world, place(door.x, door.y + door.width / 2), place(door.x, half));
+}
+
 /// One goal after another in the open, some of them called off.
 std::string judge_open(Dice& dice) {
   Params p;
@@ -171,11 +184,7 @@ std::string judge_door(Dice& dice) {
   const Vec2 ahead = towards(turn), left{-ahead.y, ahead.x};
   const auto place = [&](double x, double y) { return ahead * x + left * y; };
   const double door_x = dice.uniform(0.4, 0.7), end_x = door_x + dice.uniform(0.7, 1.2);
-  Clutter& w = t.body.world;
-  const Vec2 corners[] = {place(-0.5, -half), place(end_x, -half), place(end_x, half), place(-0.5, half)};
-  for (int i = 0; i < 4; ++i) wall(w, corners[i], corners[(i + 1) % 4]);
-  wall(w, place(door_x, -half), place(door_x, at - width / 2));
-  wall(w, place(door_x, at + width / 2), place(door_x, half));
+  room_with_door(t.body.world, place, -0.5, end_x, half, {door_x, at, width});
   t.set_goal(place(end_x - dice.uniform(0.25, 0.4), dice.uniform(-0.6, 0.6) * half));
   return t.arrives(160, 20);
 }
@@ -188,17 +197,11 @@ std::string judge_straight_doors(Dice& dice) {
   double all_s = 0;
   for (int i = 0; i < kDoors; ++i) {
     Trip t(dice, kind, Params{});
-    const double half = dice.uniform(0.88, 1.08) * narrowest_gap_m(t.p) / 2, turn = dice.uniform(-0.15, 0.15);
+    const double width = dice.uniform(0.88, 1.08) * narrowest_gap_m(t.p), turn = dice.uniform(-0.15, 0.15);
     const Vec2 ahead = towards(t.start.heading + turn), left{-ahead.y, ahead.x};
     const auto place = [&](double x, double y) { return ahead * x + left * y; };
     const double door = dice.uniform(1, 2), aside = dice.uniform(-0.04, 0.04);
-    Clutter& w = t.body.world;
-    for (const double side : {-1.0, 1.0}) {
-      wall(w, place(door, aside + side * half), place(door, side * 2));
-      wall(w, place(-1, side * 2), place(door + 2, side * 2));
-    }
-    wall(w, place(-1, -2), place(-1, 2));
-    wall(w, place(door + 2, -2), place(door + 2, 2));
+    room_with_door(t.body.world, place, -1, door + 2, 2, {door, aside, width});
     t.set_goal(place(door + 1, aside));
     const std::string wrong = t.arrives(400, 60);
     if (!wrong.empty()) return wrong;

@@ -167,10 +167,14 @@ struct Rolling {
   }
   WheelWatch::Finding tick(Speed left, Speed right, double share_left, double share_right,
                            Duration elapsed = 10_ms) {
-    watch.expect({left, right}, elapsed);
+    return roll({left, right}, si(left) * share_left, si(right) * share_right, elapsed);
+  }
+  /// What is expected, and the true speeds in m/s.
+  WheelWatch::Finding roll(WheelPair expected, double left, double right, Duration elapsed = 10_ms) {
+    watch.expect(expected, elapsed);
     const double s = elapsed.raw() * 1e-3 * p.wheels.counts_per_metre;
-    way[0] += si(left) * share_left * s;
-    way[1] += si(right) * share_right * s;
+    way[0] += left * s;
+    way[1] += right * s;
     std::int32_t step[2];
     for (int i = 0; i < 2; ++i) {
       const auto now = static_cast<std::int64_t>(std::floor(way[i]));
@@ -212,10 +216,7 @@ std::string judge_sooner(Dice& dice) {
     command += std::clamp(wanted - command, -step, step);
     follow(stated, lag_s, command);
     follow(real, lag_s * share, command);
-    const double ratio = std::fabs(stated) > 1e-6 ? real / stated : 0;
-    const Speed expected = speed(ratio == 0 ? real : stated);
-    if (r.tick(expected, expected, ratio == 0 ? 1 : ratio, ratio == 0 ? 1 : ratio) !=
-        WheelWatch::Finding::none)
+    if (r.roll({speed(stated), speed(stated)}, real, real) != WheelWatch::Finding::none)
       return "a wheel that follows sooner is no fault";
   }
   return "";
