@@ -1,5 +1,7 @@
 #include "firmware/params.hpp"
 
+#include "firmware/params/relations.hpp"
+
 namespace whisker {
 namespace at_run_time {
 
@@ -8,6 +10,13 @@ RimSweep rim_sweep(const Params& p) noexcept { return formula::rim_sweep(p); }
 Reach reach(const Params& p) noexcept { return formula::reach(p); }
 
 }  // namespace at_run_time
+
+Length shortest_warning(const Params& p) noexcept {
+  const Q30 seen = sin(p.rangefinders.incidence);
+  const Q30 edge = sin(Angle::from_raw(relations::beams(p.rangefinders).outermost));
+  const int64_t way = quotient(int64_t{p.body.radius.raw()} * seen.raw(), edge.raw());
+  return Length::from_raw(saturate32(way)) * 2 / 3;
+}
 
 Length for_body(const Params& p, Length reference) noexcept {
   constexpr uint32_t kReference = 90000, kEven = 4;

@@ -15,6 +15,14 @@ RimSweep rim_sweep(const Params& p) noexcept;
 Reach reach(const Params& p) noexcept;
 }  // namespace at_run_time
 
+/// The shortest way from the first echo of an obstacle to its rim, if clear ground may hold it.
+///
+/// A disc as large as the body touches its flank. The outermost ray, at the angle A + cone / 2, gives an echo
+/// once it meets the disc at the incidence L: radius x sin(L) / sin(A + cone / 2) before the contact on a
+/// straight course. Two thirds of that is the shortest warning, because a smaller or a curved obstacle leaves
+/// less.
+Length shortest_warning(const Params& p) noexcept;
+
 constexpr Length grid_cell(const Params& p) noexcept { return p.body.radius * 2 / 9; }
 constexpr Length cell_cover(const Params& p) noexcept { return grid_cell(p) * kCellCover / 256; }
 constexpr Length guard_slack(const Params& p) noexcept { return p.body.radius / 56; }

@@ -14,7 +14,10 @@ constexpr int32_t kFlankRadiiOfLostWalls = 4;
 
 void Perception::configure(const Params& params) noexcept {
   loses_walls_ = loses_walls(params.rangefinders);
-  for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
+  for (int i = 0; i < hal::kBeams; ++i) {
+    mounts_[i] = mount(params.rangefinders, i);
+    approaches_[i].configure(params, i);
+  }
   local_grid_.configure(params);
   contacts_.configure(params.body.radius);
   motion_.configure(mounts_);
@@ -37,6 +40,7 @@ void Perception::forget(const Pose& pose) noexcept {
   contradicted_ = 0;
   misses_ = false;
   for (Contradiction& contradiction : contradictions_) contradiction = {};
+  for (ApproachWatch& approach : approaches_) approach.reset();
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
@@ -152,7 +156,11 @@ void Perception::take_in(int i, Intake& in) noexcept {
   if (sight.phantoms) contradicted_ = 0;
   measure(i, sight, in);
   const ConeObservation& observation = in.out.observations[i];
-  if (observation.hit) in.shown[i].moved = moved(observation, sight, in.misaimed);
+  if (observation.hit) {
+    in.shown[i].moved = moved(observation, sight, in.misaimed);
+  } else {
+    approaches_[i].reset();
+  }
   in.shown[i].appears = mark(observation, sight);
   in.out.observed = static_cast<uint8_t>(in.out.observed | 1U << i);
 }
@@ -226,7 +234,8 @@ void Perception::revoke(const ConeObservation& echo, const Shown& shown, Vec bod
   local_grid_.revoke(echo.beam, echo.free, shown.echo_ends);
   // What stands on clear ground would be explained by any unclear cell of so deep an arc.
   const bool hides = shown.too_near && (loses_walls_ || misses_);
-  if (hides || (shown.appears && takes_back(body)) || vouched_.any) {
+  const bool ends = approaches_[echo.number].ends_at_body(echo);
+  if (hides || ends || (shown.appears && takes_back(body)) || vouched_.any) {
     local_grid_.take_back(echo.beam, echo.free, shown.echo_ends);
   }
   if (!shown.appears) return;

@@ -8,6 +8,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/approach_watch.hpp"
 #include "firmware/perception/contacts.hpp"
 #include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
@@ -107,6 +108,7 @@ class Perception {
   bool readings_err_ = false;
   uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
   Contradiction contradictions_[hal::kBeams];
+  ApproachWatch approaches_[hal::kBeams];
   uint8_t taken_back_ = 0;  // echoes that appeared and took back ground, near the place below
   Vec taken_back_at_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading

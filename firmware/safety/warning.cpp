@@ -13,13 +13,6 @@ constexpr int32_t kAgreeing = 3;
 
 }  // namespace
 
-Length shortest_warning(const Params& params) noexcept {
-  const Q30 seen = sin(params.rangefinders.incidence);
-  const Q30 edge = sin(Angle::from_raw(relations::beams(params.rangefinders).outermost));
-  const int64_t way = quotient(int64_t{params.body.radius.raw()} * seen.raw(), edge.raw());
-  return Length::from_raw(saturate32(way)) * 2 / 3;
-}
-
 Duration warning_delay(const Params& params, bool readings_err) noexcept {
   const RangefinderParams& r = params.rangefinders;
   const int32_t readings = readings_err ? kAgreeing : kReadings;

@@ -9,7 +9,7 @@
 namespace whisker::test {
 namespace {
 
-double shortest_m(const Params& p) { return safety::shortest_warning(p).raw() * 1e-6; }
+double shortest_m(const Params& p) { return shortest_warning(p).raw() * 1e-6; }
 
 Params layout(Angle side, Angle incidence) {
   Params p;

@@ -99,13 +99,14 @@ void near(Dice& dice, Params& p) {
   if (dice.chance(0.5)) wide_cone(dice, p);
 }
 
-/// The sum of side angle, half cone and limit just above what docs/safety.md asks for, or more.
+/// The limit just above what docs/safety.md asks for at the ends and between two cones, or more.
 void incidence(Dice& dice, Params& p) {
   const double side = half(dice, dice.uniform(25, 80), dice.uniform(30, 45)), cone = dice.uniform(10, 45);
   set_si(p.rangefinders.side_angle, side);
   set_si(p.rangefinders.cone, cone);
   const double spare = dice.chance(0.5) ? dice.uniform(0, 0.5) : dice.uniform(0, 20);
-  set_si(p.rangefinders.incidence, std::clamp(95 - side - cone / 2 + spare, 5.0, 89.0));
+  set_si(p.rangefinders.incidence,
+         std::clamp(std::max(95 - side - cone / 2, (side - cone) / 2 + 5) + spare, 5.0, 89.0));
   if (dice.chance(0.5)) set_si(p.rangefinders.min_range, dice.log_uniform(0.2, 2) * radius_m(p));
 }
 

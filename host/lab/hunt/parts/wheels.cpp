@@ -324,7 +324,7 @@ std::string judge_warning(Dice& dice) {
   const double edge =
       std::min(sim::kPi / 2, radians(p.rangefinders.side_angle) + radians(p.rangefinders.cone) / 2);
   const double shortest = radius * std::sin(radians(p.rangefinders.incidence)) / std::sin(edge) * 2 / 3;
-  if (std::fabs(metres(safety::shortest_warning(p)) - shortest) > 1e-4) return "another shortest warning";
+  if (std::fabs(metres(shortest_warning(p)) - shortest) > 1e-4) return "another shortest warning";
   const double v = si(safety::warned_speed(p, err)), a = p.wheels.max_acceleration.raw() * 1e-6;
   const double delay = p.rangefinders.latency.raw() * 1e-3 + (err ? 3.0 : 1.0) / p.rangefinders.rate_hz;
   if (v * delay + v * v / 2 / a > shortest * 1.001) return "a warning comes too late";
