@@ -173,7 +173,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     const bool expects = slits_.expects();
     const bool closed = loop_.closed(view, evidence);
     // The rest of the loop is driven for slits: it is no evidence.
-    if (closed && !expects) parts_ = loop_.may_part(began_, goal_.at, wall_);
+    if (closed && !expects) parts_ = loop_.is_seen() && loop_.may_part(began_, goal_.at, wall_);
     if (refuted || ((closed || expects) && !slits_.expected(view))) {
       go_the_other_way(view);
       return false;
@@ -254,8 +254,8 @@ bool BoundaryPlanner::may_leave(const View& view) const noexcept {
 void BoundaryPlanner::escape(const View& view) noexcept {
   // A held body that turns on the spot has followed no boundary.
   if (!behaviours_.progress.rests() && ++escapes_ > kEscapes) {
-    // A loop that parts nothing proves nothing.
-    if (approach_.has_guide() || loop_.may_part(began_, goal_.at, wall_)) {
+    // A loop that parts nothing proves nothing, nor does one around unknown ground.
+    if (loop_.is_seen() && (approach_.has_guide() || loop_.may_part(began_, goal_.at, wall_))) {
       give_up_goal(view);
     } else {
       end(Event::stuck, Outcome::gave_up);

@@ -9,6 +9,7 @@ namespace {
 constexpr uint32_t kDrift = 50;  // odometry error: at most 1 / 50 of the travel
 constexpr int32_t kMostLaps = 3;
 constexpr int8_t kMostReturns = 3;
+constexpr int32_t kNear = 3;  // scales: farther than any boundary that is followed
 constexpr uint64_t kDegree = (1_deg).raw();
 constexpr uint64_t kAskew = 15 * kDegree;  // of the headings at the two ends of a lap
 
@@ -29,6 +30,13 @@ void LoopDetector::move(const View& view) noexcept {
   const Length away = norm(view.pose.at - at_);
   farthest_ = max(farthest_, away);
   if (away > scale_ * 3) left_ = away_ = true;
+  if (!view.sighted || sights_ == UINT16_MAX) return;
+  ++sights_;
+  bool near = false;
+  for (const perception::ConeObservation& seen : view.observations) {
+    near = near || (seen.hit && seen.free < scale_ * kNear);
+  }
+  if (near) ++near_;
 }
 
 bool LoopDetector::closed(const View& view, Evidence evidence) noexcept {

@@ -34,6 +34,8 @@ class LoopDetector {
   /// encloses `to`, or, if the wall is outside, `from`. Inside means not farther from the hit point than the
   /// loop reached.
   bool may_part(Vec from, Vec to, Side wall) const noexcept;
+  /// False where fewer than half of the readings showed anything near: what was followed is unknown ground.
+  bool is_seen() const noexcept { return near_ >= sights_ / 2; }
   /// True after two laps that end in one place without passing the hit point, or, by turning alone, after
   /// four: this is another obstacle. Call once per tick.
   bool strays(const View& view, Evidence evidence = Evidence::turning) noexcept;
@@ -61,6 +63,8 @@ class LoopDetector {
   int32_t laps_ = 0;       // whole turns so far
   Vec lap_at_;             // position at the end of the last one
   uint32_t lap_um_ = 0;    // View::travelled_um there
+  uint16_t sights_ = 0;    // ticks with new readings
+  uint16_t near_ = 0;      // those in which a beam saw something near
 };
 
 }  // namespace whisker::planning

@@ -41,6 +41,12 @@ class Round {
     centre_ = centre_ + by;
     place();
   }
+  /// The left beam gets an echo at this distance, in every tick from now on.
+  void see(Length distance) {
+    view_.sighted = true;
+    view_.observations[hal::kLeft].hit = true;
+    view_.observations[hal::kLeft].free = distance;
+  }
   const View& view() const { return view_; }
 
  private:
@@ -52,6 +58,18 @@ class Round {
   int deg_ = 0;
   View view_;
 };
+
+TEST(LoopDetector, UnknownGroundWithNothingNearIsNoBoundary) {
+  LoopDetector circuit;
+  Round round(circuit, 1_m);
+  round.begin();
+  round.see(310_mm);
+  for (int i = 0; i < 100; ++i) round.drive();
+  EXPECT_FALSE(circuit.is_seen());
+  round.see(290_mm);
+  for (int i = 0; i < 99; ++i) round.drive();
+  EXPECT_TRUE(circuit.is_seen()) << "half of the readings";
+}
 
 TEST(LoopDetector, ClosesWhereItBeganAfterAWholeTurn) {
   for (const Length radius : {300_mm, 1_m, 3_m}) {
