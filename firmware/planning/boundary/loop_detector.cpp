@@ -30,13 +30,13 @@ void LoopDetector::move(const View& view) noexcept {
   const Length away = norm(view.pose.at - at_);
   farthest_ = max(farthest_, away);
   if (away > scale_ * 3) left_ = away_ = true;
-  if (!view.sighted || sights_ == UINT16_MAX) return;
-  ++sights_;
+  if (!view.sighted) return;
   bool near = false;
   for (const perception::ConeObservation& seen : view.observations) {
     near = near || (seen.hit && seen.free < scale_ * kNear);
   }
-  if (near) ++near_;
+  if (near && seen_ < INT16_MAX) ++seen_;
+  if (!near && seen_ > INT16_MIN) --seen_;
 }
 
 bool LoopDetector::closed(const View& view, Evidence evidence) noexcept {

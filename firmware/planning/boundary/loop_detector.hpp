@@ -35,7 +35,7 @@ class LoopDetector {
   /// loop reached.
   bool may_part(Vec from, Vec to, Side wall) const noexcept;
   /// False where fewer than half of the readings showed anything near: what was followed is unknown ground.
-  bool is_seen() const noexcept { return near_ >= sights_ / 2; }
+  bool is_seen() const noexcept { return seen_ >= 0; }
   /// True after two laps that end in one place without passing the hit point, or, by turning alone, after
   /// four: this is another obstacle. Call once per tick.
   bool strays(const View& view, Evidence evidence = Evidence::turning) noexcept;
@@ -60,11 +60,10 @@ class LoopDetector {
   Length bound_;           // View::bound there
   Angle last_;             // the heading of the previous tick
   int64_t turned_ = 0;     // while it follows, 2^-32 turn, counter-clockwise positive
-  int32_t laps_ = 0;       // whole turns so far
+  int16_t laps_ = 0;       // whole turns so far
+  int16_t seen_ = 0;       // readings that showed something near, less those that did not
   Vec lap_at_;             // position at the end of the last one
   uint32_t lap_um_ = 0;    // View::travelled_um there
-  uint16_t sights_ = 0;    // ticks with new readings
-  uint16_t near_ = 0;      // those in which a beam saw something near
 };
 
 }  // namespace whisker::planning

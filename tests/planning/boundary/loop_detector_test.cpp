@@ -67,7 +67,7 @@ TEST(LoopDetector, UnknownGroundWithNothingNearIsNoBoundary) {
   for (int i = 0; i < 100; ++i) round.drive();
   EXPECT_FALSE(circuit.is_seen());
   round.see(290_mm);
-  for (int i = 0; i < 99; ++i) round.drive();
+  for (int i = 0; i < 100; ++i) round.drive();
   EXPECT_TRUE(circuit.is_seen()) << "half of the readings";
 }
 
