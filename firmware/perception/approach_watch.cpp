@@ -2,7 +2,6 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params/reach.hpp"
-#include "hal/types.hpp"
 
 namespace whisker::perception {
 namespace {
@@ -11,18 +10,13 @@ constexpr Length kCompared = 20_mm;  // of way: longer than noise
 
 }  // namespace
 
-void ApproachWatch::configure(const Params& params, int beam) noexcept {
-  const RangefinderParams& sensors = params.rangefinders;
-  const Mount front = mount(sensors, hal::kFront);
-  const Mount own = mount(sensors, beam);
-  const int64_t aside = magnitude(own.axis - front.axis);
-  const bool sees_more =
-      aside + own.half_cone.raw() > int64_t{front.half_cone.raw()} + sensors.incidence.raw();
-  const bool watched = loses_walls(sensors) && beam != hal::kFront && sees_more;
+void ApproachWatch::configure(const Params& params, const Mount& front, const Mount& own) noexcept {
+  const uint32_t sees_to = magnitude(own.axis - front.axis) + own.half_cone.raw();
+  const bool sees_more = sees_to > front.half_cone.raw() + params.rangefinders.incidence.raw();
+  stops_ = loses_walls(params.rangefinders) && sees_more ? shortest_warning(params) : Length{};
   const Length ahead =
       min(along(own.apex, own.axis - own.half_cone), along(own.apex, own.axis + own.half_cone));
   touches_ = params.body.radius + guard_slack(params) - ahead;
-  stops_ = watched ? shortest_warning(params) : Length{};
   reset();
 }
 

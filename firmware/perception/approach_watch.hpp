@@ -13,7 +13,7 @@ namespace whisker::perception {
 /// and each wall that stands still comes nearer by the same share of the way, whatever explains its echo.
 class ApproachWatch {
  public:
-  void configure(const Params& params, int beam) noexcept;
+  void configure(const Params& params, const Mount& front, const Mount& own) noexcept;
   void reset() noexcept { any_ = false; }
   /// Takes in an echo. True: if it goes on coming nearer like this, the body will touch what it sees after
   /// the shortest warning.

@@ -14,10 +14,8 @@ constexpr int32_t kFlankRadiiOfLostWalls = 4;
 
 void Perception::configure(const Params& params) noexcept {
   loses_walls_ = loses_walls(params.rangefinders);
-  for (int i = 0; i < hal::kBeams; ++i) {
-    mounts_[i] = mount(params.rangefinders, i);
-    approaches_[i].configure(params, i);
-  }
+  for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
+  for (int i = 0; i < hal::kBeams; ++i) approaches_[i].configure(params, mounts_[hal::kFront], mounts_[i]);
   local_grid_.configure(params);
   contacts_.configure(params.body.radius);
   motion_.configure(mounts_);

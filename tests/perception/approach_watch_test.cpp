@@ -23,11 +23,16 @@ Params slanting() {
 
 Length metres(double m) { return Length::from_raw(static_cast<std::int32_t>(std::lround(m * 1e6))); }
 
+perception::ApproachWatch right_beam(const Params& p) {
+  perception::ApproachWatch watch;
+  watch.configure(p, mount(p.rangefinders, hal::kFront), mount(p.rangefinders, hal::kRight));
+  return watch;
+}
+
 /// m. The distance from the apex to a wall with this normal, to the right of the course, at the first alarm
 /// of a body that drives 0.3 m in steps; none without.
 std::optional<double> alarm(const Params& params, double normal_deg, double begins_m, double step_m) {
-  perception::ApproachWatch approach;
-  approach.configure(params, hal::kRight);
+  perception::ApproachWatch approach = right_beam(params);
   const double closing = std::cos(normal_deg * kRadian);
   for (double way = 0; way < 0.3 && way * closing < begins_m; way += step_m) {
     perception::ConeObservation echo;
@@ -77,9 +82,7 @@ TEST(ApproachWatch, EachBeamCountsToItsOwnPartOfTheRim) {
 }
 
 TEST(ApproachWatch, BeginsAnewAfterAReset) {
-  const Params p = slanting();
-  perception::ApproachWatch approach;
-  approach.configure(p, hal::kRight);
+  perception::ApproachWatch approach = right_beam(slanting());
   perception::ConeObservation echo;
   const auto at = [&](Length x, Length free) {
     echo.beam.apex = {x, Length{}};

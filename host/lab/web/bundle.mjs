@@ -29,12 +29,13 @@ async function style(sheets) {
   const dark = own.match(DARK)[1];
   const contents = `${own}
     @media (prefers-color-scheme: dark) {:root:not([data-theme='light']) {${dark}}}`;
-  return bundled({stdin: {contents, loader: 'css'}});
+  const text = await bundled({stdin: {contents, loader: 'css'}});
+  return text.replace(/(--[\w-]+:) /g, '$1');
 }
 
 /**
- * Without the line ends beside elements that begin lines of their own, others become blanks; and without the slashes
- * and quotes that HTML does not need.
+ * Without the line ends beside elements that begin lines of their own, others become blanks; and without the slashes,
+ * quotes and end tags that HTML does not need.
  */
 function compact(html) {
   return html
@@ -44,6 +45,9 @@ function compact(html) {
     .replace(new RegExp(`(</?(?:${BLOCKS})\\b[^>]*>)\n`, 'g'), '$1')
     .replace(new RegExp(`\n(?=</?(?:${BLOCKS})\\b)`, 'g'), '')
     .replaceAll('\n', ' ')
+    .replace(/<\/(?:dt|dd|li)>(?=<(?:dt|dd|li)\b|<\/(?:div|dl|ul)>)/g, '')
+    .replace('</head><body>', '<body>')
+    .replace(/<\/p>(?=<(?:div|dl|h[123]|p|section|table|ul)\b|<\/(?:dialog|div|section)>)/g, '')
     .concat('\n');
 }
 

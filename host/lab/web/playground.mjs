@@ -5,7 +5,7 @@ import {readFile, writeFile} from 'node:fs/promises';
 import {join} from 'node:path';
 import {bundled, bundledPage, here} from './bundle.mjs';
 
-const MOST = {'index.html': 261_000, 'pico.js': 620_000};
+const MOST = {'index.html': 260_000, 'pico.js': 620_000};
 
 /**
  * The number of zeros that fill the last word, then four bytes in five characters of ( to |, low digit first; } stands
