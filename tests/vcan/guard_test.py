@@ -19,6 +19,7 @@ ROBOT = 1
 WALL = "[[wall]]\npoints = [[{x}, -1.0], [{x}, 1.0]]\n"
 FRAME = struct.Struct("<IB3x8s")
 RUNNING = 3
+FULL_AHEAD = "B80BB80B"  # both wheels of a WheelCommand, 0.3 m/s
 TIME_OUT_S, PERIOD_S, BRAKING_S = 0.05, 0.01, 0.3
 ATTEMPTS = 10
 LATE_TICKS = 5  # the processor may be busy
@@ -106,8 +107,10 @@ class OnTheBus(BusCase):
             frames = self.drive_and_fall_silent(operator, self.folder / f"log{attempt}")
             last = max(i for i, (_, identifier, _) in enumerate(frames) if identifier == "0C1")
             stands = next(i for i in range(last, len(frames)) if frames[i][1] == "101" and frames[i][2][4:12] == "00000000")
-            # A busy processor may cause a safe stop, which is sooner.
-            if all(data[2] == str(RUNNING) for _, identifier, data in frames[last:] if identifier in ("701", "709")):
+            # A busy processor may cause a safe stop, which is sooner, or come late with the last Velocity, when it brakes already.
+            runs = all(data[2] == str(RUNNING) for _, identifier, data in frames if identifier in ("701", "709"))
+            before = next(data[4:12] for _, identifier, data in reversed(frames[:last]) if identifier == "101")
+            if runs and before == FULL_AHEAD:
                 break
         else:
             self.fail("it stops for other reasons")
@@ -123,6 +126,8 @@ class OnTheBus(BusCase):
         wait_until(lambda: operator.value("WheelCommand", "Left") == 3000, lambda: f"it does not drive: {operator.heard}")
         operator.wish = None
         operator.until("WheelCommand", "Left", 0)
+        operator.heard.pop("Heartbeat", None)
+        wait_until(lambda: "Heartbeat" in operator.heard, lambda: "it is silent")  # and says whether that was a safe stop
         lines = [line.split() for line in dump.end()]
         return [(float(line[0].strip("()")), *line[2].split("#")) for line in lines]
 
