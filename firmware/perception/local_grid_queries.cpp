@@ -163,30 +163,27 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
 }
 
 Ways LocalGrid::ways(const Vec& from, Angle course, Length horizon) const noexcept {
+  if (solid_slots_ == 0) return {horizon, horizon, horizon, 60_m};
   const int32_t most = units(horizon);
-  const Length all = length_of(most);
-  if (solid_slots_ == 0) return {all, all, all, 60_m};
   const Point start = local(from);
-  const int32_t reach = most + meets_;
-  const Row box = to_torus(Span::around(start.x, reach).columns());
   const int32_t c = q14(cos(course));
   const int32_t s = q14(sin(course));
   Fan fan(most, meets_, abeam());
   for (Row slots = solid_slots_; slots != 0; slots &= slots - 1) {
     const int slot = lowest(slots);
-    const Row all_solid = solid_at(slot);
-    if (all_solid == 0) solid_slots_ &= ~(Row{1} << slot);
-    const Row solid = box & all_solid;
-    if (solid == 0) continue;
+    const Row solid = solid_at(slot);
+    if (solid == 0) {
+      solid_slots_ &= ~(Row{1} << slot);
+      continue;
+    }
     const int32_t dy = offset((slot - row_) & (kCells - 1), start.y);
-    if (dy > reach || dy < -reach) continue;
     for (Row cells = to_window(solid & ~clear(slot)); cells != 0; cells &= cells - 1) {
       const int32_t dx = offset(lowest(cells), start.x);
       const int32_t x = (dx * c + dy * s) / Q14::kOne;
       if (!fan.behind(x)) fan.meet(x, (dy * c - dx * s) / Q14::kOne);
     }
   }
-  const auto way = [&](int32_t free) { return free == most ? all : length_of(free); };
+  const auto way = [&](int32_t free) { return free == most ? horizon : length_of(free); };
   return {way(fan.left()), way(fan.ahead()), way(fan.right()),
           fan.nearest() == INT32_MAX ? 60_m : length_of(fan.nearest())};
 }
