@@ -25,7 +25,7 @@ struct Ways {
   Length left;  ///< the farther of the ways at 30 and 60 degrees
   Length ahead;
   Length right;
-  /// To the nearest such cell that is not behind, or up to 8 % less; 60 m if none is in reach.
+  /// To the nearest such cell that is not behind, or up to 8 % less; 60 m if the window has none.
   Length nearest;
 };
 

@@ -1,9 +1,11 @@
 """The bars of the planners, and the campaigns that are compared with them."""
 
+import csv
 import math
+import statistics
 import subprocess
 
-from campaigns import CLASSES, ROOT, Many, campaign, heading, line, table
+from campaigns import CLASSES, ROOT, WHISKER, Many, campaign, fail, file_of, heading, line, table
 
 # Column heading: (figure of a summary, digits).
 FIGURES = {
@@ -120,3 +122,74 @@ def bars(o):
             missed += misses
             failed += s["contact"]["value"] > 0 or (not more and s["success"]["value"] < 0.85)
     o.failed = (f"{failed} classes fail the gate" if failed else None) if o.gate else f"{missed} figures miss their bar" if missed else None
+
+
+def missions_of(program, world, count, first, *options):
+    """Seed to row, of `whisker campaign --csv`."""
+    rows = file_of("").with_suffix(".csv")
+    command = [program, "campaign", *CLASSES[world].split(), "--count", str(count), "--seed", str(first), *options, "--csv", rows]
+    if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode:
+        fail(" ".join(map(str, command)))
+    with open(rows, encoding="utf-8", newline="") as file:
+        return {row["seed"]: row for row in csv.DictReader(file)}
+
+
+def worse_of_pairs(lost, won):
+    """How probable so many lost of the pairs that differ are, or more, if both are as likely."""
+    return sum(math.comb(lost + won, k) for k in range(lost, lost + won + 1)) / 2 ** (lost + won)
+
+
+def longer(logs):
+    """(ratio with its 95 % bounds, how probable so long a one is by chance); logs: of the ratios of pairs."""
+    mean = statistics.fmean(logs)
+    error = max(statistics.stdev(logs) / math.sqrt(len(logs)), 1e-9)
+    bounds = "{:.3f} ({:.3f} to {:.3f})".format(*(math.exp(mean + k * 1.96 * error) for k in (0, -1, 1)))
+    return bounds, statistics.NormalDist().cdf(-mean / error)
+
+
+def pairs(world, o, noise, planner):
+    """(the cells of a line, {figure: how probable it is by chance, if both programs are as good})"""
+    options = ("--planner", planner, *(("--noise",) if noise else ()))
+    new, old = (missions_of(program, world, o.count, o.first, *options) for program in (WHISKER, o.other))
+    both = [(new[seed], old[seed]) for seed in old]
+    if any(a["shortest_m"] != b["shortest_m"] for a, b in both):
+        fail(f"{world}: the two programs make other worlds")
+    no_way = world == "enclosed"
+
+    def succeeds(row):
+        return row["outcome"] == "unreachable" if no_way else row["outcome"] == "reached" and row["at_goal"] == "1"
+
+    def differ(of):
+        return sum(of(a) > of(b) for a, b in both), sum(of(b) > of(a) for a, b in both)
+
+    won, lost = differ(succeeds)
+    more, fewer = differ(lambda row: row["outcome"] == "contact")
+    chances = {"success": worse_of_pairs(lost, won), "contact": worse_of_pairs(more, fewer)}
+    cells = [f"+{won} -{lost}", f"{sum(a['outcome'] == 'contact' for a, _ in both)} ({more - fewer:+d})"]
+    ended = [(a, b) for a, b in both if succeeds(a) and succeeds(b)]
+    for figure in ("time_s", "path_m"):
+        cell, chances[figure] = longer([math.log(float(a[figure]) / float(b[figure])) for a, b in ended])
+        cells.append(cell)
+    return cells, chances
+
+
+@table(unit="missions a cell", missions=1000, other={"required": True, "metavar": "WHISKER", "help": "the program to compare with, of another commit"})
+def against(o):
+    """This program against another one: the reference robot with the boundary and the map planner in every class of world, with ideal
+    sensors and with noise, paired by seeds. Cells: missions won and lost; contacts, and how many more; time and path, geometric mean of
+    the ratios where both succeed, with 95 % bounds. Last, the figures that are worse by Holm's test over all of them, at 5 %."""
+    yield heading("world", "success", "contacts", "time", "path")
+    chances = {}
+    for planner in ("skirt", "map"):
+        for noise in (False, True):
+            for world in CLASSES:
+                name = f"{planner}, {world}{', noise' if noise else ''}"
+                cells, found = pairs(world, o, noise, planner)
+                chances.update({f"{name}: {figure}": chance for figure, chance in found.items()})
+                yield line(name, *cells)
+    worse = []
+    for rank, (name, chance) in enumerate(sorted(chances.items(), key=lambda item: item[1])):
+        if chance > 0.05 / (len(chances) - rank):
+            break
+        worse.append(f"{name} (p = {chance:.1e})")
+    yield f"\nWorse, of {len(chances)} figures: {'; '.join(worse) or 'none'}"
