@@ -91,9 +91,7 @@ const BY_DAY = [
   'a dead encoder',
   'a stalled motor',
   'a motor with swapped wires',
-  'an HC-SR04 that is cut off on the way',
   'an HC-SR04 whose echo line is held high',
-  'an HC-SR04 that locks up after a ping',
 ];
 
 describe('of a driving robot', () => {
@@ -447,7 +445,7 @@ describe('of the flash', () => {
     assert.ok(old, 'the first ones are kept');
     const fresh = kept(commits({...blank, bytes: first.bytes}, 0.25).flash);
     assert.notEqual(fresh.values, old.values);
-    for (const powerFor of [1, 5000, 8192 + 7, 8192 + 300]) {
+    for (const powerFor of LONG ? [1, 5000, 8192 + 7, 8192 + 300] : [5000, 8192 + 7]) {
       const {flash, resets} = commits({...blank, bytes: first.bytes, powerFor}, 0.25);
       assert.deepEqual(resets, ['power', 'power']);
       assert.ok([old.values, fresh.values].includes(kept(flash)?.values), `cut after ${powerFor} bytes`);
