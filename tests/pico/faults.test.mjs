@@ -88,7 +88,6 @@ const broken = [
 const BY_DAY = [
   'an unplugged sensor',
   'a short circuit of the bus',
-  'a dead encoder',
   'a stalled motor',
   'a motor with swapped wires',
   'an HC-SR04 whose echo line is held high',
@@ -126,7 +125,7 @@ describe('of a driving robot', () => {
       drive.close();
     }
   });
-  test('edges of echo lines are timed while the bus of the gyro is freed', () => {
+  atNight('edges of echo lines are timed while the bus of the gyro is freed', () => {
     const drive = moving(robotWith('gyro = true\n', '', SONAR));
     try {
       const {mcu} = drive.chip;
@@ -314,7 +313,7 @@ function damaged(flash) {
 
 describe('at the start', () => {
   const starts = (prepare) => driveOf([world('discs'), '--robot', ROBOT, '--listen'], {prepare});
-  test('a sensor that is not there: range_lost, and no motion', () => {
+  atNight('a sensor that is not there: range_lost, and no motion', () => {
     const drive = starts(() => {});
     try {
       drive.body.rangers[0].fault = 'unplugged';
