@@ -125,7 +125,7 @@ def bars(o):
     o.failed = (f"{failed} classes fail the gate" if failed else None) if o.gate else f"{missed} figures miss their bar" if missed else None
 
 
-def missions_of(program, world, count, first, *options):
+def rows_of(program, world, count, first, *options):
     """Seed to row, of `whisker campaign --csv`."""
     rows = file_of("").with_suffix(".csv")
     command = [program, "campaign", *CLASSES[world].split(), "--count", str(count), "--seed", str(first), *options, "--csv", rows]
@@ -153,7 +153,7 @@ def longer(logs):
 def pairs(world, o, noise, planner):
     """(the cells of a line, {figure: how probable it is by chance, if both programs are as good})"""
     options = ("--planner", planner, *(("--noise",) if noise else ()))
-    new, old = (missions_of(program, world, o.count, o.first, *options) for program in (WHISKER, o.other))
+    new, old = (rows_of(program, world, o.count, o.first, *options) for program in (WHISKER, o.other))
     both = [(new[seed], old[seed]) for seed in old]
     if any(a["shortest_m"] != b["shortest_m"] for a, b in both):
         fail(f"{world}: the two programs make other worlds")
